@@ -1,4 +1,4 @@
-"""Facts about CMake: targets, and commands as written."""
+"""Facts about CMake files: targets, and commands as written."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class BuildTarget(NamedTuple):
     name: str
     """Name of the target."""
     kind: Literal["executable", "library", "interface", "other"]
-    """"interface" for an interface library, "other" for custom targets."""
+    """Kind of the target: "interface" for an interface library, "other" for a custom target."""
     sources: tuple[str, ...]
     """Source files, relative to the package."""
     test: bool
@@ -22,65 +22,65 @@ class BuildTarget(NamedTuple):
     span: Span
     """Place of the name in the command that creates the target."""
     links: tuple[tuple[str, Span], ...] = ()
-    """Names that the target links in every build, each with the place of the name."""
+    """Names of libraries and targets that the target links in every build, each with its place."""
     optional_sources: tuple[str, ...] = ()
-    """Sources that are not compiled in every build.
+    """Source files that are not compiled in every build.
 
-    If the target itself is conditional, these are all its sources.
+    For a target that is not created in every build, these are all its source files.
     """
     sources_known: bool = True
-    """True if all sources of the target are known."""
+    """True if all source files of the target are known."""
     headers: tuple[str, ...] | None = None
-    """Names, mostly as in find_package(), whose headers the target can include.
+    """Packages whose headers the target can include, mostly as named in find_package().
 
-    Headers of the package itself are left out. None means any header: for tests, for targets without sources, and
-    if the list is unknown.
+    Headers of the package itself are left out. None means that any header can be included: for tests, for targets without
+    source files, and if the list is unknown.
     """
 
 
 class CommandPlace(NamedTuple):
-    """A call of a command that runs."""
+    """A call of a CMake command that is executed."""
 
     name: str
     """Name of the command, in lower case."""
     span: Span
-    """Place of the name in the file."""
+    """Place of the command's name in the file."""
 
 
 class UnsetVariable(NamedTuple):
-    """A reference to an unset variable, as an argument of a command that certainly runs."""
+    """A reference to an unset CMake variable, in an argument of a command that is certainly executed."""
 
     name: str
     """Name of the variable."""
     command: str
-    """Name of the command, in lower case."""
+    """Name of the command with the reference, in lower case."""
     span: Span
     """Place of the name within ``${name}``."""
 
 
 class Call(NamedTuple):
-    """A command of a CMake file as it is written, not evaluated."""
+    """A command in a CMake file as it is written, without evaluation of its arguments."""
 
     name: str
-    """Name in lower case."""
+    """Name of the command in lower case."""
     path: str
-    """Path of the file, relative to the base of the run."""
+    """Path of the file, relative to the base folder of the run."""
     args: tuple[tuple[str, int, int, int], ...]
-    """Arguments: text, kind, start and end offset. Rules use :attr:`texts` and :meth:`span`."""
+    """For each argument its text, kind, start and end offset. Rules use :attr:`texts` and :meth:`span` instead."""
     start: int
-    """Offset of the name in the file."""
+    """Offset of the command's name in the file."""
     end: int
     """Offset after the closing parenthesis."""
     line: int
-    """Line of the name."""
+    """Line of the command's name, from 1."""
     column: int
-    """Column of the name."""
+    """Column of the command's name, from 1."""
     breaks: tuple[int, ...]
     """Offsets at which the second and later lines of the command begin."""
     blocks: tuple[str, ...]
     """Enclosing blocks, outermost first: "if", "foreach", "while", "function", "macro"."""
     test: bool
-    """True if an enclosing condition depends on whether tests are built."""
+    """True if an enclosing if() depends on whether tests are built."""
 
     @property
     def texts(self) -> tuple[str, ...]:
@@ -89,16 +89,16 @@ class Call(NamedTuple):
 
     @property
     def name_span(self) -> Span:
-        """Span of the name of the command."""
+        """Place of the command's name."""
         return Span(self.path, self.line, self.column, self.line, self.column + len(self.name))
 
     @property
     def extent(self) -> Span:
-        """Span of the whole command."""
+        """Place of the whole command."""
         return Span(self.path, self.line, self.column, *self._position(self.end))
 
     def span(self, index: int) -> Span:
-        """Return the span of the argument with this index (from 0), quotes included."""
+        """Return the place of the argument with this index (from 0), including its quotes."""
         _, _, start, end = self.args[index]
         return Span(self.path, *self._position(start), *self._position(end))
 
@@ -110,7 +110,7 @@ def position(offset: int, start: int, line: int, column: int, breaks: tuple[int,
     """Return the line and the column of ``offset``, a place in a command.
 
     The command begins at the offset ``start``, which is at ``line`` and ``column``. ``breaks`` are the offsets at which
-    its second and later lines begin.
+    the second and later lines of the command begin.
     """
     lines = bisect_right(breaks, offset)
     return (line + lines, offset - breaks[lines - 1] + 1) if lines else (line, column + offset - start)

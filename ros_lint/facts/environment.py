@@ -1,4 +1,4 @@
-"""Environment variables with the same value in every distribution of ROS 2."""
+"""Environment variables that have the same value in every ROS 2 distribution."""
 
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from collections.abc import Mapping
 from typing import Final
 
 ROS_2: Final[Mapping[str, str]] = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3"}
-"""Variables that build scripts, launch files and conditions in manifests can read (REP 149)."""
+"""Values of the variables that build scripts, launch files and conditions in manifests can read (REP 149)."""

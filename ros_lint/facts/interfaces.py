@@ -1,4 +1,4 @@
-"""Facts about definitions of messages, services and actions."""
+"""Facts about definition files of messages, services and actions."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from ros_lint.base.text import Span
 
 
 class InterfaceProblem(NamedTuple):
-    """A place in a definition because of which rosidl fails, or the generated code does not compile."""
+    """An error in an interface definition: rosidl rejects the definition, or the generated code does not compile."""
 
     message: str
-    """Text in lower case without a final full stop."""
+    """Text of the error in lower case without a final full stop."""
     span: Span
-    """The place."""
+    """Place of the error."""
     instead: str | None = None
-    """The text to write there, None if the correct text is not certain."""
+    """The text that corrects the error if it replaces the text at ``span``; None if the correct text is not certain."""
 
 
 class InterfaceFile(NamedTuple):
-    """A .msg, .srv or .action file as rosidl_adapter reads it."""
+    """The contents of a .msg, .srv or .action file, read as rosidl_adapter reads it."""
 
     path: str
-    """Path of the file, relative to the base of the run."""
+    """Path of the file, relative to the base folder of the run."""
     types: tuple[tuple[str, Span], ...] = ()
-    """Types of the fields, as written: ``Type`` of the same package, or ``package/Type``."""
+    """Types of the fields, as written, with their places: ``Type`` of the same package, or ``package/Type``."""
     problems: tuple[InterfaceProblem, ...] = ()
-    """Places that rosidl rejects."""
+    """Errors in the definition."""

@@ -1,4 +1,4 @@
-"""Facts about launch files, before the values of their arguments are known."""
+"""Facts about launch files. Values that depend on launch arguments are still unknown."""
 
 from __future__ import annotations
 
@@ -9,64 +9,67 @@ from ros_lint.base.text import Span
 from ros_lint.facts.visibility import NewerSyntax, Opaque, Problem
 
 LAUNCH_LIBRARIES: Final = frozenset({"launch", "launch_ros", "launch_xml", "launch_yaml"})
-"""The Python packages of ``ros2 launch`` itself."""
+"""The Python packages of which ``ros2 launch`` consists."""
 
 LAUNCH_RUNTIME: Final = LAUNCH_LIBRARIES | {"ament_index_python"}
-"""The Python packages that every installation of ``ros2 launch`` has."""
+"""The Python packages that exist in every installation of ``ros2 launch``."""
 
 
 class LaunchValue(NamedTuple):
     """The possible values of a text in a launch file."""
 
     texts: tuple[str, ...]
-    """The alternatives, at least one.
+    """The alternative texts, at least one.
 
-    Parts that are known only at launch, such as the value of a launch configuration, are marks: characters of the
-    private use area. ``launch.is_plain`` returns True for a text without marks.
+    Private-use Unicode characters stand for parts that are known only at launch, such as the value of a launch
+    configuration. ``launch.is_plain`` returns True for a text without such characters.
     """
     span: Span
-    """Place of the text."""
+    """Place of the text in the launch file."""
     exact: bool = False
-    """True if ``span`` covers exactly the only text, without its quotes, so that a fix can replace it."""
+    """True if ``span`` covers only this text, without its quotes, and there is one alternative, so that a fix can replace it."""
     conditions: tuple[LaunchCondition, ...] = ()
-    """Conditions of a parameter or parameter file; it is passed only if all of them hold."""
+    """Conditions of a parameter or parameter file. It is passed to the node only if all of them hold."""
     guards: tuple[tuple[LaunchCondition, ...], ...] = ()
-    """For each of ``texts`` the conditions under which it applies; () if no text has conditions."""
+    """For each of ``texts`` the conditions under which it is the value; () if no text has conditions."""
 
 
 class LaunchCondition(NamedTuple):
-    """A condition under which an action runs: a text equals a value (or is true), or does not if negated."""
+    """A condition under which an action runs: a text equals a value, or is true.
+
+    If ``wanted`` is False, the condition is negated.
+    """
 
     texts: tuple[str, ...]
-    """Alternatives of the text, with the same marks as ``LaunchValue.texts``."""
+    """Alternatives of the text, in the form of ``LaunchValue.texts``."""
     equals: str | None
-    """The value that the text must equal; None: the text must be true in the sense of IfCondition."""
+    """The value that the text must equal; None if the text must be true in the sense of IfCondition."""
     wanted: bool = True
-    """False if the condition is negated (UnlessCondition)."""
+    """False if the condition is negated, as by UnlessCondition."""
 
 
 UNSCOPED: Final = "unscoped"
-"""The ``name`` of a group whose settings remain in effect after its end (``scoped=False``)."""
+"""The ``name`` of a group action with ``scoped=False``, whose settings remain in effect after its end."""
 
 
 class LaunchAction(NamedTuple):
-    """An action of a launch file, before the values of launch arguments are known. The kind decides which fields are used."""
+    """An action of a launch file, before the values of launch arguments are known. Its kind decides which fields are used."""
 
     kind: str
     """Kind of the action.
 
     One of ``argument``, ``set``, ``unset``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``,
-    ``remap``, ``parameter``, ``environment``, ``unset_environment``, ``reset`` (of all launch configurations, except those
+    ``remap``, ``parameter``, ``environment``, ``unset_environment``, ``reset`` (of all launch configurations except those
     in ``arguments``), ``reset_environment``, ``later`` (actions of a timer or an event handler) or ``other``.
     """
     span: Span
     """Place of the action: in Python the whole call, in XML and YAML the name of the element."""
     package: LaunchValue | None = None
-    """Package of a node or component."""
+    """Name of the package of a node or component."""
     package_span: Span | None = None
-    """Place of the package that ``target`` looks up."""
+    """Place of the package name in a look-up of the path ``target``; None if ``target`` is not looked up in a package."""
     target: LaunchValue | None = None
-    """Main operand of the action, by its kind.
+    """Main operand of the action, which depends on its kind.
 
     * ``node``: the executable. ``component``: the class. ``process``: the program.
     * ``include``: the file.
@@ -82,157 +85,156 @@ class LaunchAction(NamedTuple):
     * ``remap``: the new name. ``namespace``: the namespace.
     """
     name: LaunchValue | None = None
-    """Name of a node or component; None if the launch file does not set it.
+    """Name of a node or component; None if the launch file does not set the name.
 
-    The alternative "" means that the file may not set it, as in ``name="a" if condition else None``. If unknown keywords
-    (``Node(**keywords)``) may set it, its only text is not plain (``launch.is_plain``). The same holds for the namespace.
+    The alternative "" means that the launch file may not set the name, as in ``name="a" if condition else None``. If
+    unknown keywords (``Node(**keywords)``) may set the name, its only text is not plain (``launch.is_plain``).
     """
     namespace: LaunchValue | None = None
-    """Namespace of a node or component; None if the action does not set it. See ``name``."""
+    """Namespace of a node or component; None if the action does not set it. Alternatives are as in ``name``."""
     arguments: tuple[tuple[str, LaunchValue], ...] = ()
-    """Values passed by name.
+    """Values that the action passes by name.
 
-    For an include, the launch arguments. For a process or node, the words of the command line under "", and further
-    options: ``$VARIABLE`` of its environment, ``cwd``, ``prefix``.
+    * ``include``: the launch arguments.
+    * ``process``, ``node``: the words of the command line under "", and further options: ``$VARIABLE`` for an environment
+      variable, ``cwd``, ``prefix``.
     """
     argument_spans: tuple[Span, ...] = ()
-    """Places of the names of the arguments of an include: one for each of ``arguments``, or none."""
+    """Places of the names of the launch arguments of an include: one for each of ``arguments``, or () if unknown."""
     choices: tuple[str, ...] = ()
-    """Values that an argument accepts; () if it accepts any."""
+    """Values that a declared launch argument accepts; () if it accepts any value."""
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
-    """Parameters by name.
+    """Names and values of the parameters of a node.
 
-    A parameter file has the name "". Unknown parameters together have a name that is not plain (``launch.is_plain``).
+    The name of a parameter file is "". A single entry whose name is not plain (``launch.is_plain``) stands for all
+    unknown parameters.
     """
     remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
-    """Remappings of a node or component: old name and new name. Unknown remappings together are a pair that is not plain."""
+    """Remappings of a node or component: pairs of old and new name. One pair that is not plain stands for all unknown ones."""
     conditions: tuple[LaunchCondition, ...] = ()
-    """Conditions that must all hold."""
+    """Conditions of the action. The action runs only if all of them hold."""
     children: tuple[LaunchAction, ...] = ()
-    """Actions inside: of a group, a container, an event handler or a timer."""
+    """Actions inside this action, which is a group, a container, an event handler or a timer."""
     conditional_arguments: tuple[str, ...] = ()
-    """Names of arguments that an include gets only under a condition of unknown value."""
+    """Names of launch arguments that an include gets only under a condition whose value is unknown."""
     builtin_model: bool = False
-    """True if a launch helper of a released package names the executable, so that the helper depends on it."""
+    """True if a launch helper of a released package contains the name of the executable. The helper then needs the executable."""
 
     @property
     def has_scope(self) -> bool:
-        """True for a group without ``scoped=False``: launch configurations and remappings in it end with the group."""
+        """True for a group without ``scoped=False``: launch configurations and remappings set in it end with the group."""
         return self.kind == "group" and (self.name is None or self.name.texts != (UNSCOPED,))
 
 
 ReferenceKind = Literal["node", "component", "include", "command", "program", "file", "package"]
-"""Kind of the thing that a launch file names and starts or reads; "package" is a package without anything in it.
+"""Kind of what a launch file refers to. "package" is a reference to a package without an executable or file in it.
 
 For "program", the package is a rosdep key.
 """
 
 
 class LaunchReference(NamedTuple):
-    """A place in a launch file that names a package, and mostly something in it."""
+    """A place in a launch file that refers to a package, and mostly to an executable, class or file of the package."""
 
     kind: ReferenceKind
-    """Kind of the thing that the file names."""
+    """Kind of what the place refers to."""
     package: str
     """Name of the package."""
     name: str
-    """Name of the thing in the package, "" for a plain look-up of the package.
+    """Name of the executable, class, command or file in the package; "" for a look-up of the package alone.
 
-    An executable, a component class, a command of a shell, or a path below share/<package>.
+    A file is a path below share/<package>.
     """
     span: Span
-    """Span of the name, or of the package if there is no name."""
+    """Place of the name, or of the package if there is no name."""
     package_span: Span
-    """Place of the name of the package."""
+    """Place of the package name."""
     conditional: bool = False
-    """True if the action is under a condition that may be false."""
+    """True if the reference is used only under a condition that may be false."""
     exact: bool = True
-    """True if ``span`` covers exactly the name, so that a fix can replace it."""
+    """True if ``span`` covers exactly the name, so that a fix can replace the text."""
     package_exact: bool = True
-    """True if ``package_span`` covers exactly the package, so that a fix can replace it."""
+    """True if ``package_span`` covers exactly the package name, so that a fix can replace the text."""
     optional: bool = False
     """True if the launch file works without the package.
 
-    It checks first that the package exists, or names it in some distributions only.
+    The launch file checks first whether the package exists, or refers to it for some distributions only.
     """
     from_default: bool = False
-    """True if the reference holds only with the default values of the launch arguments."""
+    """True if the reference exists only with the default values of the launch arguments."""
     package_from_default: bool = False
-    """True if the name of the package is composed from the default of an argument, so it is not literal."""
+    """True if the package name is composed from the default of a launch argument, so the file does not contain it literally."""
     surely_read: bool = False
-    """True if the started program certainly reads the file: parameters, RViz configurations.
-
-    Such a file cannot be an output.
-    """
+    """True if the started program certainly reads the file (parameters or RViz configuration), so it is not an output file."""
     existence_checked: bool = False
-    """True if the launch file checks first that the file exists, and works without it."""
+    """True if the launch file checks first whether the file exists, and works without it."""
     fallback_for: tuple[tuple[str, str], ...] = ()
-    """Files whose absence the launch file checks first, as package and path below its share directory.
+    """Files whose existence the launch file checks first, as pairs of package and path below share/<package>.
 
-    The reference is used only if they do not exist.
+    The reference is used only if these files do not exist.
     """
     distros: tuple[str, ...] = ()
-    """Distributions in which the reference is reached, sorted, if the launch file checks ROS_DISTRO.
+    """Distributions of ROS in which the reference is used, sorted, if the launch file checks ROS_DISTRO.
 
-    Empty if it is reached in all distributions.
+    () means all distributions.
     """
 
 
 class LaunchFile(NamedTuple):
-    """A launch file, as far as it is known without running it."""
+    """The contents of a launch file that are known without running it."""
 
     path: str
-    """Path of the file, relative to the base of the run."""
+    """Path of the file, relative to the base folder of the run."""
     language: Literal["python", "xml", "yaml"]
-    """Front end of launch that reads the file."""
+    """Language of the file, which decides how launch reads it."""
     references: tuple[LaunchReference, ...] = ()
-    """Packages, executables and files that the file names."""
+    """Packages, executables and files that the file refers to."""
     opaque: tuple[Opaque, ...] = ()
-    """Places that could not be evaluated."""
+    """Parts of the file that ros-lint could not evaluate."""
     problems: tuple[Problem, ...] = ()
-    """Errors for which launch rejects the file."""
+    """Errors because of which launch rejects the file."""
     test: bool = False
-    """True if the file serves tests only: it has generate_test_description() (launch_testing)."""
+    """True if the file serves tests only, because it has generate_test_description() (launch_testing)."""
     helper: bool = False
     """True if the file cannot be launched itself.
 
-    It is a Python module that builds actions, but it has no generate_launch_description() that can be called
-    without arguments.
+    It is a Python module that creates actions for other launch files, but has no generate_launch_description() without
+    required parameters.
     """
     actions: tuple[LaunchAction, ...] = ()
-    """Actions at the top level of the file, in order. ``launch.walk_actions`` also yields those in groups."""
+    """Actions at the top level of the file, in order. ``launch.walk_actions`` also yields the actions inside them."""
     imports: tuple[tuple[str, Span], ...] = ()
-    """Dotted names of modules that a Python launch file imports whenever it is loaded.
+    """Dotted names of the modules that a Python launch file always imports, with their places.
 
     Empty if the file changes ``sys.path``.
     """
     configurations_read: tuple[str, ...] = ()
-    """Launch configurations that the file reads, sorted. A name that is not plain means: any other, too."""
+    """Names of the launch configurations that the file reads, sorted. A name that is not plain stands for any unknown name."""
     missing_inputs: tuple[str, ...] = ()
-    """Inputs of a Python launch file that were not available when ros-lint interpreted it, sorted.
+    """Inputs of a Python launch file that did not exist when ros-lint interpreted the file, sorted.
 
-    Modules are dotted names, files are install paths.
+    An input is the dotted name of a module, or the install path of a file.
     """
     substitutes_parameters: bool = False
-    """True if launch configurations are substituted in a parameter file (allow_substs).
+    """True if the file substitutes launch configurations in a parameter file (``allow_substs``).
 
-    The parameter file can read any configuration.
+    Such a parameter file can read any launch configuration.
     """
     version_problems: tuple[Problem, ...] = ()
-    """Problems that only older distributions have; ``kind`` is the first distribution without the problem."""
+    """Problems in older distributions only. ``kind`` is the first distribution without the problem."""
     syntax: tuple[NewerSyntax, ...] = ()
     """Constructs in a Python launch file that older versions of Python reject."""
 
 
 def walk_actions(actions: Iterable[LaunchAction]) -> Iterator[LaunchAction]:
-    """Yield actions and, recursively, their child actions."""
+    """Yield ``actions`` and, recursively, the actions inside each of them."""
     for action in actions:
         yield action
         yield from walk_actions(action.children)
 
 
 def values_of_action(action: LaunchAction) -> Iterator[tuple[str, Span]]:
-    """Yield each text of an action and of its conditions with its span, without child actions."""
+    """Yield each text of an action and of its conditions, with its place. The actions inside it are left out."""
     for value in values(action):
         yield from ((text, value.span) for text in value.texts)
     for condition in action.conditions:
@@ -240,7 +242,7 @@ def values_of_action(action: LaunchAction) -> Iterator[tuple[str, Span]]:
 
 
 def values(action: LaunchAction) -> Iterator[LaunchValue]:
-    """Yield each value of an action, without child actions."""
+    """Yield each LaunchValue of an action. The actions inside it are left out."""
     for value in (action.package, action.target, action.value, action.name, action.namespace):
         if value is not None:
             yield value

@@ -1,4 +1,4 @@
-"""Facts about package metadata and dependencies: package.xml, colcon.pkg and colcon.meta."""
+"""Facts from the files with package metadata and dependencies: package.xml, colcon.pkg and colcon.meta."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros_lint.facts.visibility import Problem
 
 
 class Role(Flag):
-    """A purpose for which a package needs another package."""
+    """A purpose for which a package needs another package. Purposes can be combined."""
 
     BUILD = auto()
     """Needed to build this package."""
@@ -26,16 +26,16 @@ class Role(Flag):
 
 
 class DependencyKind(NamedTuple):
-    """The meaning of a dependency tag such as ``exec_depend``: its role, its letters in our data, its order in colcon."""
+    """The meaning of a dependency tag such as ``exec_depend``: its purpose, its letters in our data, and its effect in colcon."""
 
     role: Role
     letters: str
-    """Letters of the tag in the index of released packages.
+    """Letters for the tag in the index of released packages; "" if the index ignores the tag.
 
     b build, t buildtool, e build_export, u buildtool_export, x exec, s test, d doc, G group, M membership.
     """
     phases: tuple[str, ...]
-    """Dependency categories of colcon-ros that order packages; () if the tag orders none."""
+    """Dependency categories of colcon-ros by which colcon sorts packages; () if the tag does not affect the order."""
 
 
 DEPENDENCY_KINDS: Final[Mapping[str, DependencyKind]] = {
@@ -56,14 +56,14 @@ DEPENDENCY_KINDS: Final[Mapping[str, DependencyKind]] = {
 """The meaning of each dependency tag (REP 127, 140 and 149; colcon_ros/package_identification/ros.py)."""
 
 ROLES: Final[Mapping[str, Role]] = {tag: kind.role for tag, kind in DEPENDENCY_KINDS.items() if kind.role}
-"""The role of each tag that declares a dependency."""
+"""The purpose of each tag that declares a dependency on a package."""
 
 
 class Element(NamedTuple):
-    """An element of a manifest that is not a dependency: a child of ``<package>`` or of ``<export>``."""
+    """An element of a manifest that declares no dependency: a child of ``<package>`` or of ``<export>``."""
 
     tag: str
-    """Name of the element."""
+    """Name of the tag."""
     text: str
     """Text of the element, without surrounding white space."""
     attributes: tuple[tuple[str, str], ...]
@@ -80,44 +80,41 @@ class Element(NamedTuple):
         return dict(self.attributes).get(attribute, default)
 
     def span_of(self, attribute: str) -> Span:
-        """Return the place of the value of an attribute, or of the whole element if it does not have the attribute."""
+        """Return the place of the value of an attribute, or of the whole element if the attribute is absent."""
         names = [name for name, _ in self.attributes]
         return self.attribute_spans[names.index(attribute)] if attribute in names else self.span
 
 
 class Depend(NamedTuple):
-    """A dependency element of a manifest, ``group_depend``, ``member_of_group``, ``conflict`` and ``replace`` included."""
+    """A dependency element of a manifest, including ``group_depend``, ``member_of_group``, ``conflict`` and ``replace``."""
 
     name: str
-    """Name of the package, rosdep key or group."""
+    """Name of the required package, rosdep key or group."""
     tag: str
-    """Name of the element, such as "exec_depend"."""
+    """Name of the tag, such as "exec_depend"."""
     condition: str
-    """Text of the attribute ``condition`` (REP 149), "" if absent. A finding about an attribute is placed at ``span``.
+    """Text of the attribute ``condition`` (REP 149), "" if the attribute is absent.
 
-    " " is an empty attribute, which fails to parse.
+    An empty attribute, which is an error, has the text " ". Findings about the condition are placed at ``span``.
     """
     versions: tuple[tuple[str, str], ...]
-    """Version attributes, such as ("version_gte", "1.2.0")."""
+    """Names and values of the version attributes, such as ("version_gte", "1.2.0")."""
     span: Span
     """Place of the whole element."""
     name_span: Span
     """Place of the name."""
     close: int = 0
-    """Length of the end tag in code points.
-
-    0 if there is no end tag or if it contains a line end.
-    """
+    """Length of the end tag in code points; 0 if there is no end tag or if it contains a line end."""
 
 
 class Manifest(NamedTuple):
-    """A ``package.xml``, as far as it can be read.
+    """The contents of a ``package.xml`` that can be read.
 
-    If it has problems, colcon does not recognize the package.
+    If ``problems`` is not empty, colcon does not recognize the package.
     """
 
     path: str
-    """Path of the file, relative to the base of the run."""
+    """Path of the file, relative to the base folder of the run."""
     format: int
     """Value of the attribute ``format``; 1 if it is absent."""
     name: str
@@ -125,9 +122,9 @@ class Manifest(NamedTuple):
     version: str
     """Text of ``<version>``, "" if there is none."""
     elements: tuple[Element, ...]
-    """Children of ``<package>`` that declare no dependency, ``<export>`` included."""
+    """Children of ``<package>`` that declare no dependency, including ``<export>``."""
     depends: tuple[Depend, ...]
-    """Dependency tags in the order of the file, whatever their condition is."""
+    """All dependency elements in the order of the file, including those whose condition is false."""
     exports: tuple[Element, ...]
     """Children of ``<export>``."""
     problems: tuple[Problem, ...]
@@ -135,41 +132,38 @@ class Manifest(NamedTuple):
     name_span: Span
     """Place of the name, or of the root element if there is no name."""
     end: Span
-    """The empty span just before ``</package>``, where an element can be added."""
+    """The empty span just before ``</package>``, where an element can be inserted."""
     begin: Span | None = None
-    """The empty span just after ``<package ...>``; None if there is no such element."""
+    """The empty span just after ``<package ...>``; None if the file has no such element."""
     format_span: Span | None = None
-    """Span of the value of the attribute ``format``; None if it is absent, which means format 1."""
+    """Place of the value of the attribute ``format``; None if the attribute is absent, which means format 1."""
     other_contents: tuple[Span, ...] = ()
-    """Other direct contents of ``<package>``: comments, processing instructions, stray text."""
+    """Direct contents of ``<package>`` that are not elements: comments, processing instructions, text."""
     stray_text: tuple[Span, ...] = ()
-    """The members of ``other_contents`` that are text."""
+    """The members of ``other_contents`` that are text, which is an error."""
     indent: str = "  "
-    """White space before a child of ``<package>``."""
+    """White space before each child of ``<package>``."""
     newline: str = "\n"
-    """Line end of the file."""
+    """Line end that the file uses."""
     text: str = ""
-    """The file, for its validation by the XML schema; "" if it has no ``<package>``."""
+    """The text of the file, for its validation by the XML schema; "" if it has no ``<package>``."""
     codec: str = "utf-8"
-    """Codec that encodes the text to the bytes of the file."""
+    """Codec that encodes the text to the original bytes of the file."""
 
 
 class ColconDepend(NamedTuple):
-    """A dependency that colcon takes from a place other than package.xml.
-
-    The place is colcon.pkg, colcon.meta or a plain script.
-    """
+    """A dependency that colcon reads from colcon.pkg, colcon.meta or a script without manifest, not from package.xml."""
 
     name: str
     """Name of the package."""
     role: Role
-    """Purposes that the place declares."""
+    """Purposes of the dependency that the file declares."""
     span: Span
-    """The place."""
+    """Place of the dependency in the file."""
 
 
 class ColconSettings(NamedTuple):
-    """Settings of a package in a ``colcon.pkg``, or in an entry of a ``colcon.meta``."""
+    """Settings of a package in a ``colcon.pkg`` file, or in an entry of a ``colcon.meta`` file."""
 
     name: str
     """Name of the package, "" if not set."""
@@ -179,9 +173,9 @@ class ColconSettings(NamedTuple):
 
 
 class ColconMeta(NamedTuple):
-    """The settings in a ``colcon.meta``: for packages given by name, and for packages given by path."""
+    """The settings in a ``colcon.meta`` file, for packages given by name and for packages given by path."""
 
     path: str
     by_name: tuple[tuple[str, ColconSettings], ...]
     by_path: tuple[tuple[str, ColconSettings], ...]
-    """Settings by path: as written, relative to the file."""
+    """Settings by the path of the package, as written, relative to the file."""

@@ -1,4 +1,4 @@
-"""Repositories that a workspace lists but need not contain (``.repos`` files, git submodules)."""
+"""Repositories that a workspace lists but may not contain, in ``.repos`` files or as git submodules."""
 
 from __future__ import annotations
 
@@ -6,28 +6,28 @@ from typing import NamedTuple
 
 
 class UnclonedRepositories(NamedTuple):
-    """Repositories of one list that are not in the workspace."""
+    """The repositories of one list, such as a ``.repos`` file, that are not in the workspace."""
 
     path: str
-    """Path of the list, such as ``deps.repos`` or ``.gitmodules``."""
+    """Path of the file with the list, such as ``deps.repos`` or ``.gitmodules``."""
     names: tuple[str, ...]
-    """Their folder names, sorted."""
+    """Folder names of the missing repositories, sorted."""
 
 
 class ExpectedRepositories(NamedTuple):
-    """Repositories that may be added to a workspace, by folder name. Mostly a package has the same name."""
+    """Repositories that a workspace lists, by folder name. Mostly a repository has a package of the same name."""
 
     uncloned: frozenset[str] = frozenset()
-    """Submodules and listed repositories that are not in the workspace: what they may contain counts as not missing.
+    """Names of the submodules and listed repositories that are not in the workspace. Their packages do not count as missing.
 
-    The names of their folders, and those at the end of their URLs.
+    For each repository, these are the name of its folder and the name at the end of its URL.
     """
     listed: frozenset[str] = frozenset()
-    """Repositories in ``*.repos`` and ``*.rosinstall`` files, which may or may not have been fetched."""
+    """Names of the repositories in ``*.repos`` and ``*.rosinstall`` files, fetched or not."""
     lists: tuple[UnclonedRepositories, ...] = ()
-    """The uncloned repositories of each list."""
+    """For each list, the repositories that are not in the workspace."""
     complete: bool = True
-    """Whether all lists could be read. Otherwise a repository of any name may be missing."""
+    """True if all lists could be read. Otherwise a repository of any name may be missing."""
 
 
 NOTHING_AWAITED = ExpectedRepositories()

@@ -1,4 +1,4 @@
-"""Facts about ``setup.py`` and ``setup.cfg``: names in them, and places that a fix can edit."""
+"""Facts about ``setup.py`` and ``setup.cfg``: entry points, and places that a fix can edit."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ class EntryPoint(NamedTuple):
     """An entry point that a setup.py or setup.cfg declares: ``talker = robot.talker:main`` in the group console_scripts."""
 
     group: str
-    """Group, such as "console_scripts"."""
+    """Group of the entry point, such as "console_scripts"."""
     name: str
-    """Name in the group: of a console script, the name of the program."""
+    """Name of the entry point in its group. For a console script, this is the name of the program."""
     target: str
-    """The target as ``module:attribute``."""
+    """The object that the entry point refers to, as ``module:attribute``."""
     span: Span
-    """The place of the entry."""
+    """Place of the entry point in the file."""
 
     @property
     def module(self) -> str:
-        """Dotted name of the module."""
+        """Dotted name of the module in ``target``."""
         return self.target.partition(":")[0].strip()
 
 
 class PythonModule(NamedTuple):
-    """A module of this package that an entry point names."""
+    """A module of the package that an entry point refers to."""
 
     name: str
-    """Dotted name."""
+    """Dotted name of the module."""
     path: str
-    """Path relative to the package."""
+    """Path of the module's file, relative to the package."""
     names: tuple[str, ...]
     """Names defined or imported at the top level of the module, sorted."""
     open: bool
@@ -39,29 +39,26 @@ class PythonModule(NamedTuple):
 
 
 class EditableList(NamedTuple):
-    """A list in ``setup.py`` that a fix can add an element to."""
+    """A list in ``setup.py`` to which a fix can add an element."""
 
     option: str
-    """Name of the option: ``data_files``, ``packages`` or ``console_scripts``."""
+    """Name of the option of setup() with the list: ``data_files``, ``packages`` or ``console_scripts``."""
     end: Span
-    """The empty span after the last element.
-
-    If a comma follows the element, the span is after the comma and its comment.
-    """
+    """Empty span after the last element. If a comma follows the element, the span is after the comma and its comment."""
     comma: bool
     """True if a comma follows the last element."""
     indent: str | None
     """White space before the last element if the element has a line of its own, else None."""
     size: int
-    """Number of elements."""
+    """Number of elements in the list."""
     variable: str = ""
-    """Variable that holds the name of the package, "" if there is none."""
+    """Name of the variable of setup.py that contains the package name, "" if there is none."""
     glob: str = ""
-    """Name by which setup.py calls glob.glob, "" if it does not import it."""
+    """Name by which setup.py calls glob.glob, "" if setup.py does not import it."""
     quote: str = "'"
-    """Quote character of most texts in the list."""
+    """Quote character of most strings in the list."""
     joins: str = ""
-    """The way in which setup.py joins paths: the name of a function, "f" for f-strings, or "" for ``+``."""
+    """How setup.py joins paths: the name of a function, "f" for f-strings, or "" for ``+``."""
 
 
 class WrittenText(NamedTuple):
@@ -70,18 +67,15 @@ class WrittenText(NamedTuple):
     kind: Literal["glob", "gap", "section", "option"]
     """Kind of the place.
 
-    * "glob": the pattern of a glob, or its end.
-    * "gap": a place between two texts where a comma is probably missing.
-    * "section": a section of ``setup.cfg``, or its last line.
+    * "glob": the pattern of a glob, or the place where the pattern ends.
+    * "gap": a place between two strings where a comma is probably missing.
+    * "section": a section of ``setup.cfg``, or the last line of the file.
     * "option": an option of ``setup.cfg``.
     """
     text: str
-    """Text at the place.
-
-    For a section its name ("" for the last line), for an option ``section.name``.
-    """
+    """Text at the place. For a section, the name of the section ("" for the last line); for an option, ``section.name``."""
     span: Span
-    """Span of the text without quotes, or of the value of an option.
+    """Place of the text without its quotes, or of the value of an option.
 
-    For the other kinds it is empty and at the end of the line.
+    For a "gap" or "section" it is empty and at the end of the line.
     """

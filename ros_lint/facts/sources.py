@@ -1,4 +1,4 @@
-"""Facts about source files: the names of other packages' contents, and where they are used."""
+"""Facts about source files: places with names that belong to other packages, such as includes and imports."""
 
 from __future__ import annotations
 
@@ -10,88 +10,85 @@ from ros_lint.facts.manifest import Role
 from ros_lint.facts.visibility import Opaque
 
 Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
-"""Name space in which a mention is resolved: each kind of name has its own.
+"""Kind of a name that may belong to another package. Each kind has its own way to find the package of a name.
 
-Example: the rosdep key ``eigen`` is ``Eigen3`` to find_package() and ``Eigen/`` in an include.
+Example: the library of the rosdep key ``eigen`` has the name ``Eigen3`` in find_package() and ``Eigen/`` in an include.
 """
 
 Purpose = Literal["", "export", "interfaces", "plugins", "helper", "tool", "conditional", "unused"]
-"""Purpose for which a package is used, as far as a collector knows it; "" is the usual case: code.
+"""Purpose for which a place uses a package, if a collector recognizes it. "" is the usual case: the code uses the package.
 
 * "export": to pass the package on to dependents.
-* "interfaces": to generate the code of interfaces.
-* "plugins": the used package loads plugins that the package with the script provides.
+* "interfaces": to generate code for messages, services or actions.
+* "plugins": the used package loads plugins that this package provides.
 * "helper": a command of another package of the workspace calls the package.
 * "tool": to run a program of the package in the build.
-* "conditional": for a part of a model that xacro leaves out unless an argument is passed.
+* "conditional": for a part of a robot model that xacro leaves out unless an argument is passed.
 * "unused": for an import whose names the source never uses.
 """
 
 
 class Mention(NamedTuple):
-    """A place with a name that may belong to another package."""
+    """A place with a name that may belong to another package, e.g. an ``#include``."""
 
     name: str
     """Name as written: a header, a dotted module, an argument of find_package, a package, ``pkg/Type``."""
     via: Via
-    """Kind of the name."""
+    """Kind of the name: include, import and so on."""
     span: Span
-    """The place."""
+    """Place of the name."""
     what: str = ""
-    """Quotation of the place for a message, if the name alone is not enough."""
+    """Text for messages that quotes the place; "" if the name alone is enough."""
     optional: bool = False
-    """True if the code works without the package:
-
-    QUIET and X_FOUND, try/except ImportError, __has_include.
-    """
+    """True if the code works without the package, because of QUIET and X_FOUND, try/except ImportError or __has_include."""
     test: bool = False
-    """True if the place is known to serve tests only."""
+    """True if the place certainly serves tests only."""
     purpose: Purpose = ""
     """Purpose for which the package is used."""
 
 
 class Use(NamedTuple):
-    """A place that needs another package: a mention with a resolved name. Dependency rules read only uses."""
+    """A place that needs another package: a Mention whose name was resolved to packages. Dependency rules read only uses."""
 
     package: str
-    """The package or rosdep key to declare: the best provider."""
+    """The package or rosdep key that is best to declare for the use."""
     providers: tuple[str, ...]
-    """Each name whose declaration satisfies the use, ``package`` first."""
+    """All packages and rosdep keys of which one must be declared. ``package`` is the first."""
     role: Role
-    """All purposes for which this place needs the package."""
+    """All purposes for which the place needs the package."""
     what: str
-    """Quotation of the place for a message: "#include <std_msgs/msg/string.hpp>"."""
+    """Text for messages that quotes the place: "#include <std_msgs/msg/string.hpp>"."""
     via: Via
-    """Kind of the name."""
+    """Kind of the name at the place: include, import and so on."""
     optional: bool
     """True if the code works without the package."""
     span: Span
-    """The place."""
+    """Place of the name."""
     certain: bool = True
-    """False if the file may be unused: it is not in a target, not installed and not a test."""
+    """False if the file with the place may be unused: it is not in a target, not installed and not a test."""
     name: str = ""
-    """Name at the place, in the name space ``via``: a header path, a module, a name of find_package."""
+    """Name at the place, of the kind ``via``: a header path, a module, an argument of find_package()."""
     conditional: bool = False
-    """True if the place is in a part of a model that xacro leaves out unless an argument is passed."""
+    """True if the place is in a part of a robot model that xacro leaves out unless an argument is passed."""
     unused: bool = False
     """True if the place is an import whose names the source never uses."""
 
 
 class LookUp(NamedTuple):
-    """A file that code looks up in the share directory of a package."""
+    """A file that code searches for in the share directory of a package."""
 
     package: str
-    """Package in whose share directory the file is looked up."""
+    """Package in whose share directory the file is searched for."""
     path: str
     """Path below share/<package>."""
     span: Span
-    """The place."""
+    """Place of the look-up in the code."""
 
 
 class MachinePath(NamedTuple):
-    """An absolute or workspace-relative path that other machines do not have.
+    """An absolute or workspace-relative path in a source that does not exist on other machines.
 
-    It is below a home directory, leads into the sources from the folder above them, or is below ``/opt/ros``.
+    It is below a home directory, is a relative path into the ``src`` folder of the workspace, or is below ``/opt/ros``.
     """
 
     path: str
@@ -100,15 +97,15 @@ class MachinePath(NamedTuple):
     Examples: ``/home/jay/ros2_ws/src/robot/config/robot.yaml``, ``src/robot/config/robot.yaml``.
     """
     span: Span
-    """The place of the path."""
+    """Place of the path in the source."""
     is_written: bool = False
-    """True if the path is an output: a program opens it for writing, or the name of the variable implies it."""
+    """True if the path is an output: a program opens it for writing, or the name of the variable suggests writing."""
     relative_to_file: bool = False
-    """True if the reader of the path would resolve a relative path from the folder of the file."""
+    """True if the program that reads the path resolves a relative path from the folder of the file with the path."""
     parameter_default: bool = False
-    """True if the path is the default of a parameter that a program declares."""
+    """True if the path is the default value of a node parameter that the code declares."""
     generated_from: str = ""
-    """The name of the file from which xacro generated the file with the path, "" if its header names none."""
+    """Name of the file from which xacro generated the file with the path, "" if no header of xacro names one."""
     is_rviz_description: bool = False
     """True if RViz reads the robot description from this path. It opens the path as written, without ``package://``."""
 
@@ -119,61 +116,58 @@ class MachinePath(NamedTuple):
 
 
 class ImportedType(NamedTuple):
-    """A message, service or action imported by name in Python: ``from robot.msg import State``."""
+    """A message, service or action type that Python code imports by name: ``from robot.msg import State``."""
 
     name: str
-    """Name as ``robot/msg/State``."""
+    """Name of the type, as ``robot/msg/State``."""
     span: Span
-    """The place of the name."""
+    """Place of the name in the import."""
     module: Span
-    """Span of the module as written.
-
-    The use of the package that provides the module has the same span.
-    """
+    """Place of the module name as written. The Use of the package that provides the module has the same span."""
 
 
 class ParameterFile(NamedTuple):
-    """A YAML file, as far as it contains parameters of nodes (rcl_yaml_param_parser)."""
+    """A YAML file with parameters of nodes, as read by rcl_yaml_param_parser."""
 
     path: str
-    """Path of the file, relative to the base of the run."""
+    """Path of the file, relative to the base folder of the run."""
     nodes: tuple[tuple[str, Span], ...]
-    """Full names of nodes with parameters, with a leading slash; ``*`` and ``**`` are wildcards.
+    """Full names of the nodes with parameters, with a leading slash, and their places; ``*`` and ``**`` are wildcards.
 
-    Empty if the file has no ``ros__parameters``.
+    Empty if the file has no key ``ros__parameters``.
     """
     first: Span
-    """Span of the first key."""
+    """Place of the first key."""
     configurations_read: tuple[str, ...] = ()
-    """Launch configurations that are substituted if the node's ParameterFile has ``allow_substs``."""
+    """Names of the launch configurations that launch substitutes if the node's ParameterFile has ``allow_substs``."""
 
 
 class Registration(NamedTuple):
-    """A C++ macro that makes a class loadable: RCLCPP_COMPONENTS_REGISTER_NODE or PLUGINLIB_EXPORT_CLASS."""
+    """A C++ macro call that makes a class loadable: RCLCPP_COMPONENTS_REGISTER_NODE or PLUGINLIB_EXPORT_CLASS."""
 
     kind: Literal["component", "plugin"]
     """"component" for RCLCPP_COMPONENTS_REGISTER_NODE, "plugin" for PLUGINLIB_EXPORT_CLASS."""
     name: str
-    """Class as written, without a leading ``::``."""
+    """Name of the class as written, without a leading ``::``."""
     span: Span
-    """The place of the class."""
+    """Place of the class name."""
     base: str = ""
     """Base class of a plugin, without a leading ``::``; "" for a component."""
 
 
 class PluginLoader(NamedTuple):
-    """A loader of plugins in C++ with literal arguments (``pluginlib::ClassLoader``)."""
+    """An object in C++ that loads plugins, created with literal arguments (``pluginlib::ClassLoader``)."""
 
     package: str
-    """Package to which plugins are exported."""
+    """Package that declares the base class, to which other packages export plugins."""
     base: str
-    """Base class of the plugins, with its namespaces."""
+    """Name of the base class of the plugins, with its namespaces."""
     span: Span
-    """Span of the package."""
+    """Place of the package name."""
 
 
 class FileFacts(NamedTuple):
-    """The facts of one source file about other packages."""
+    """All facts of one source file that concern other packages."""
 
     mentions: tuple[Mention, ...] = ()
     opaque: tuple[Opaque, ...] = ()
@@ -181,18 +175,18 @@ class FileFacts(NamedTuple):
     lookups: tuple[LookUp, ...] = ()
     parameters: ParameterFile | None = None
     optional_modules: tuple[str, ...] = ()
-    """Python modules that may be missing: ``try: import a`` with ``except ImportError``.
+    """Python modules that may be missing, because the file imports them in ``try`` with ``except ImportError``.
 
-    Relative modules begin with dots.
+    Relative names begin with dots.
     """
     path_additions: tuple[Span, ...] = ()
-    """Imports after the file added a folder of the module's name to ``sys.path``."""
+    """Places of imports after code that adds a folder with the name of the module to ``sys.path``."""
     programs: tuple[str, ...] = ()
-    """Names of Python files at the end of string literals: a test may start such a file by path."""
+    """Names of Python files at the end of string literals, because a test may start such a file by its path."""
     sets_path: bool = False
-    """True if the file mentions ``sys.path``, so that modules may be found in more folders."""
+    """True if the file mentions ``sys.path``, so that its imports may find modules in further folders."""
     loaders: tuple[PluginLoader, ...] = ()
     types: tuple[ImportedType, ...] = ()
-    """Messages, services and actions imported by name."""
+    """Message, service and action types that the file imports by name."""
     interface: InterfaceFile | None = None
-    """Contents of an interface definition, except for IDL."""
+    """Contents of the file if it is a .msg, .srv or .action file, else None."""

@@ -1,4 +1,4 @@
-"""Comments that suppress findings."""
+"""Facts about comments that suppress findings: ``ros-lint: ignore[rule]``."""
 
 from __future__ import annotations
 
@@ -12,38 +12,38 @@ if TYPE_CHECKING:
 
 
 MARKER = "ros-lint:"
-"""The text that each suppression contains; files without it suppress nothing."""
+"""The text that every suppression comment contains."""
 
 
 class Name(NamedTuple):
-    """A reference to a rule in a suppression, by name or code."""
+    """A rule in a suppression comment, given by name or code."""
 
     text: str
     """Name or code of a rule as written."""
     span: Span
-    """The place."""
+    """Place of the name or code."""
 
 
 class Suppression(NamedTuple):
-    """A comment that suppresses findings of some rules, or has a ``problem`` and suppresses nothing."""
+    """A comment that suppresses findings of some rules. If ``problem`` is not empty, it suppresses nothing."""
 
     names: tuple[Name, ...]
-    """The rules."""
+    """The rules whose findings the comment suppresses."""
     reason: str
-    """Text after the closing bracket, "" if there is none."""
+    """Text after the closing bracket, "" if there is none. It explains the suppression."""
     lines: tuple[int, int] | None
-    """First and last line that the suppression covers, its own included; None for the whole file."""
+    """First and last line in which findings are suppressed, including the line of the comment; None for the whole file."""
     span: Span
-    """Span from ``ros-lint:`` to the closing bracket."""
+    """Place from ``ros-lint:`` to the closing bracket."""
     inside: Span
-    """Span between the brackets."""
+    """Place between the brackets."""
     removal: Edit
-    """Edit that removes the suppression, and the comment if it contains nothing else."""
+    """Edit that removes the suppression, and the whole comment if it contains nothing else."""
     problem: str = ""
     """Message that explains why the comment suppresses nothing, "" if it is valid."""
 
     def covers(self, span: Span) -> bool:
-        """Return whether the suppression applies to a span of its file: one common line is enough."""
+        """Return whether the suppression applies to a span: one common line in the same file is enough."""
         if self.problem or span.path != self.span.path:
             return False
         if self.lines is None:
@@ -59,25 +59,25 @@ class Suppression(NamedTuple):
 
 
 class Unused(NamedTuple):
-    """Names of rules in a suppression that hides no finding of these rules, so that the names can be removed."""
+    """Names of rules in a suppression that have no effect, because none of their findings are at its place."""
 
     suppression: Suppression
-    """The comment."""
+    """The suppression comment."""
     names: tuple[Name, ...]
-    """The names without effect."""
+    """The names without effect, which can be removed."""
 
 
 class UnknownSelector(NamedTuple):
-    """A name in a suppression that is not the name of a rule."""
+    """A name in a suppression comment that is neither the name nor the code of a rule."""
 
     suppression: Suppression
-    """The comment."""
+    """The suppression comment."""
     name: Name
-    """The name that no rule has."""
+    """The unknown name."""
     suggestion: str
-    """The nearest name or code, or ""."""
+    """The most similar name or code of a rule, "" if there is none."""
     fate: str = ""
-    """End of the message about a former rule of this name, such as "was removed"; "" if no former rule has the name."""
+    """End of the message for the name of a rule that was removed or divided, such as "was removed"; "" for any other name."""
 
 
 def lines_of(span: Span) -> tuple[int, int]:
@@ -89,11 +89,11 @@ def lines_of(span: Span) -> tuple[int, int]:
 
 
 class SuppressionUse(NamedTuple):
-    """The suppressions without effect, or with names without effect, in a list for each reason."""
+    """The suppression comments that have no effect, or that contain names without effect."""
 
     unused: tuple[Unused, ...]
-    """Names of rules that reported nothing at the place."""
+    """Suppressions with names of rules that reported no finding at the place."""
     unknown: tuple[UnknownSelector, ...]
-    """Names that no rule has."""
+    """Suppressions with names that no rule has."""
     malformed: tuple[Suppression, ...]
-    """Suppressions with a ``problem``."""
+    """Suppressions that are invalid, with the reason in ``problem``."""

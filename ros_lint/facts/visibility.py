@@ -1,4 +1,4 @@
-"""Limits of the analysis of a file (``Opaque``) and errors in it (``Problem``)."""
+"""Parts of a file that could not be analysed (``Opaque``), and errors in a file (``Problem``)."""
 
 from __future__ import annotations
 
@@ -9,84 +9,85 @@ from ros_lint.base.text import Span
 
 
 class Facet(Flag):
-    """A part of a package that a place without a known value can hide.
+    """A kind of contents of a package.
 
-    Example: ``install(FILES ${UNKNOWN} DESTINATION lib/robot)`` hides EXECUTABLES.
+    If a place in a build script cannot be evaluated, it may add unknown contents of some kinds. Example: ``install(FILES
+    ${UNKNOWN} DESTINATION lib/robot)`` may add to EXECUTABLES.
     """
 
     USES = auto()
-    """Packages that this package uses."""
+    """Other packages that the package uses."""
     EXECUTABLES = auto()
     """Files installed to lib/<package> and to bin."""
     SHARE = auto()
     """Files installed to share/<package>: launch files, parameters, models."""
     PYTHON = auto()
-    """Python modules that the package provides."""
+    """Python modules that the package installs."""
     LIBRARIES = auto()
-    """Libraries, headers, CMake packages and targets that the package provides."""
+    """Libraries, headers, CMake packages and CMake targets that the package provides."""
     INTERFACES = auto()
     """Messages, services and actions of the package."""
     COMPONENTS = auto()
-    """Component and plugin classes of the package."""
+    """Component classes and plugin classes of the package."""
     EXPORTS = auto()
-    """Packages that CMake finds for the dependents of the package."""
+    """Packages that the CMake configuration file of the package searches for on behalf of dependents."""
 
 
 ALL_FACETS = ~Facet(0)
-"""All parts of a package."""
+"""All kinds of contents."""
 
 
 class Opaque(NamedTuple):
-    """A place that could not be evaluated. A rule that claims absence reports nothing about what it hides."""
+    """A place in a file that ros-lint could not evaluate, for example a command with an unknown variable.
+
+    Rules that report missing contents report nothing about the contents in ``hides``.
+    """
 
     hides: Facet
-    """The parts of the package that may contain more than is known."""
+    """The kinds of contents to which the place may add more than is known."""
     reason: str
-    """Reason as a clause without subject, such as "include() of ${name} cannot be followed"."""
+    """Reason why the place could not be evaluated, as a clause such as "include() of ${name} cannot be followed"."""
     span: Span
-    """The place."""
+    """The place in the file."""
     undefined: str = ""
-    """Name of an installed target without a visible definition, if that is the reason."""
+    """Name of the installed target whose definition was not found, if this is the reason; otherwise ""."""
     below: str = ""
-    """Folder of the install prefix that contains the hidden files, "" for any folder."""
+    """Folder of the install prefix that contains the unknown files, "" for any folder."""
     inside: str = ""
-    """Folder with a separate build that was not analysed, "" for any part of the build.
-
-    It is in the package or next to it.
-    """
+    """Folder with a build of its own that was not analysed, in the package or next to it; "" for any part of the build."""
     unchecked: bool = False
-    """True if a limit or a bug of ros-lint is the reason, so that the file counts as not checked."""
+    """True if a limit or a bug of ros-lint is the reason. The file then counts as not checked."""
 
     def reaches(self, path: str) -> bool:
-        """Return whether this place may hide ``path``, a file or folder in the install prefix, or a file below ``path``."""
+        """Return whether this place may add ``path``, a file or folder in the install prefix, or a file below ``path``."""
         return not self.below or f"{path}/".startswith(f"{self.below}/") or self.below.startswith(f"{path}/")
 
 
 class NewerSyntax(NamedTuple):
-    """A construct of Python that versions before ``version`` reject."""
+    """A construct in a Python source that versions of Python before ``version`` reject."""
 
     construct: str
     """Name of the construct, in the plural."""
     version: tuple[int, int]
-    """First version of Python that accepts it, such as (3, 12)."""
+    """First version of Python that accepts the construct, such as (3, 12)."""
     span: Span
-    """The place."""
+    """Place of the construct."""
 
 
 class Problem(NamedTuple):
-    """An error of a file for the tools that read it."""
+    """An error in a file for which the tools that read the file report an error or fail."""
 
     kind: str
-    """Short stable name, such as "unknown-tag"."""
+    """Short stable name of the kind of error, such as "unknown-tag"."""
     message: str
-    """Text in lower case without a final full stop."""
+    """Message in lower case without a final full stop."""
     span: Span
-    """The place."""
+    """Place of the error."""
     instead: str = ""
-    """Replacement of something that was valid in ROS 1."""
+    """The ROS 2 name that replaces a name that was valid in ROS 1; "" for other errors."""
     subject: str = ""
-    """Subject of the problem, if a rule needs it.
+    """Name or path that the error is about, "" if no rule needs it.
 
-    A path relative to the package (that of a missing folder to install ends with a slash), the pattern of a glob, a key,
-    the manifest format that has a tag or attribute, or the new name of a keyword.
+    It is a path relative to the package (that of a missing folder to install ends with a slash), the pattern of a glob, a
+    key, the manifest format that has a tag or attribute, or the new name of a keyword.
     """
