@@ -1,1 +1,1 @@
-"""Find, select and run rules; apply suppressions, the baseline and fixes."""
+"""Find, select and run rules; apply suppression comments, the baseline and fixes."""

@@ -1,8 +1,8 @@
 """The baseline: a file that lists known findings, so that only new findings are shown.
 
-A finding is known by its rule, package and subject, which stay the same when lines and files move. Findings that share
-these are counted. If there are more than the file lists, all of them are shown, because it cannot be determined which
-of them are new. Bulk suppressions of eslint work the same way.
+A finding is identified by its rule, package and subject, which do not change when lines and files move. The file has the
+number of findings with the same rule, package and subject. If a run has more than this number, all of them are shown,
+because it cannot be determined which are new. Bulk suppressions of eslint work in the same way.
 """
 
 from __future__ import annotations
@@ -19,38 +19,41 @@ from ros_lint.engine.report import UNSURE, HiddenCount, Issue, Report
 from ros_lint.errors import UserError
 
 FindingKey = tuple[str, str, str]
-"""The name of the rule, the package, the subject."""
+"""The name of the rule, the package and the subject of a finding."""
 
 
 _MOST_BYTES = 64 << 20
-"""Size limit of the file, enough for half a million findings."""
+"""Size limit of a baseline file in bytes, enough for half a million findings."""
 
 
 class BaselineError(UserError):
-    """A baseline that cannot be read or written. The message names the file and the remedy."""
+    """A baseline file cannot be read or written. The message names the file and a remedy."""
 
 
 class KnownFindings(NamedTuple):
-    """The number of known findings that have the same rule, package and subject."""
+    """The number of known findings with the same rule, package and subject."""
 
     number: int
     sure: bool
-    """True if they are shown by default. Otherwise they may be hidden in a run without being fixed."""
+    """True if all these findings have high confidence, so that every run shows them.
+
+    If False, a later run may hide some of them, so their absence does not mean that they were fixed.
+    """
 
 
 class Baseline(NamedTuple):
     """The contents of a baseline file."""
 
     folders: tuple[str, ...]
-    """The folders that were checked when it was written, relative to the folder of the file."""
+    """The folders that were checked when the file was written, relative to the folder of the file."""
     known: Mapping[FindingKey, KnownFindings]
 
     def hide_known(self, report: Report, name: str, folders: Sequence[str], where: str = "listed in") -> Report:
         """Return a report without the known findings, and with a warning about known findings that no longer occur.
 
-        ``name`` is the name of the file in messages, and ``where`` the words before the name. ``folders`` are the checked
-        folders. The warning is only given if they equal the folders in the file, because findings in other folders may still
-        occur.
+        ``name`` is the name of the baseline file in messages, and ``where`` the words before the name. ``folders`` are
+        the checked folders. The warning is given only if they equal the folders in the file, because findings in other
+        folders may still occur.
         """
         counts = Counter(map(_key, report.issues))
         shown = tuple([issue for issue in report.issues if counts[_key(issue)] > self._number(_key(issue))])
@@ -73,7 +76,7 @@ class Baseline(NamedTuple):
 
 
 def of(report: Report) -> Baseline:
-    """Return the baseline of the findings of a report, without the folders that were checked."""
+    """Return a baseline of the findings of a report. Its ``folders`` are empty."""
     return Baseline((), {key: KnownFindings(number, sure=True) for key, number in Counter(map(_key, report.issues)).items()})
 
 
@@ -96,7 +99,7 @@ _REMEDY = "--write-baseline rewrites it"
 
 
 def write(path: str, report: Report, folders: Sequence[str]) -> None:
-    """Write the findings of a report to a file, atomically. Raises BaselineError if the file cannot be written."""
+    """Write the findings of a report to a baseline file, atomically. Raises BaselineError if the file cannot be written."""
     try:
         edits.write(path, text(report, folders).encode("utf-8"))
     except edits.EditError as error:
@@ -104,7 +107,7 @@ def write(path: str, report: Report, folders: Sequence[str]) -> None:
 
 
 def text(report: Report, folders: Sequence[str]) -> str:
-    """Return the baseline of a report: one line for each key, sorted, so that versions merge well."""
+    """Return the text of the baseline file for a report: one sorted line for each key, so that git can merge versions of it."""
     counts = Counter(map(_key, report.issues))
     unsure = {_key(issue) for issue in report.issues if issue.finding.confidence is not Confidence.HIGH}
     entries = [_as_json(key, count, key not in unsure) for key, count in sorted(counts.items())]
@@ -122,7 +125,7 @@ def _key(issue: Issue) -> FindingKey:
 
 
 def _encodable(name: str) -> str:
-    """Return a name that JSON can represent: surrogates, which represent undecodable bytes, become "?"."""
+    """Return a name that JSON can represent: lone surrogates, which represent undecodable bytes, become "?"."""
     return name.encode("utf-8", "replace").decode("utf-8")
 
 

@@ -1,4 +1,4 @@
-"""Check a workspace: from rules and suppressions to a report."""
+"""Check a workspace with the selected rules, and return a report."""
 
 from __future__ import annotations
 
@@ -24,14 +24,17 @@ T = TypeVar("T")
 
 
 class ReportContext(NamedTuple):
-    """Data about a run for its report, and the rules that suppressions may name."""
+    """Data about a run that its report contains, and the rules that suppression comments may name."""
 
     rules: tuple[Rule, ...]
-    """All rules, selected or not."""
+    """All rules, including those that are not selected."""
     data_date: str
     """The date of the package index, as YYYY-MM-DD."""
     folders: tuple[str, ...]
-    """The folders to report findings of, relative to the base; "" is the base. Other packages are context."""
+    """The folders whose findings are reported, relative to the base folder of the run; "" is the base folder itself.
+
+    Packages outside these folders are only read, because the findings can depend on them.
+    """
     warnings: tuple[str, ...]
     """Warnings about the command line and the settings."""
 
@@ -39,9 +42,10 @@ class ReportContext(NamedTuple):
 def check(
     workspaces: Sequence[Workspace], suppressions: Iterable[Suppression], selection: Selection, context: ReportContext
 ) -> Report:
-    """Return the report of the selected rules, with suppressions and settings applied.
+    """Return the report of the selected rules, with suppression comments and settings applied.
 
-    ``workspaces`` are the workspace for each distribution of the run. The report has the union of their findings and limits.
+    ``workspaces`` has the workspace once for each distribution of the run. Their findings, and their places that could
+    not be analysed, are combined.
     """
     suppressions = tuple(suppressions)
     checked = find_issues(workspaces, selection.rules, suppressions, context.rules, context.folders)
@@ -80,12 +84,12 @@ def check(
 
 
 def _union(parts: Iterable[Iterable[T]]) -> tuple[T, ...]:
-    """Return the members of all parts without duplicates."""
+    """Return the members of all parts in order, without duplicates."""
     return tuple(dict.fromkeys([member for part in parts for member in part]))
 
 
 def _not_cloned(workspace: Workspace) -> Iterator[UnclonedRepositories]:
-    """Yield for each list, such as a .repos file, the repositories that are not cloned, without those named like a package."""
+    """Yield for each list, such as a .repos file, its repositories that are not cloned and are not named like a known package."""
     world = workspace.world
     for path, names in world.awaited.lists:
         if unknown := [name for name in names if not world.is_package(package_name(name))]:

@@ -1,4 +1,4 @@
-"""Application of edits to texts, and atomic writing of files."""
+"""Apply edits to texts, and write files atomically."""
 
 from __future__ import annotations
 
@@ -19,7 +19,10 @@ from ros_lint.base.tree import Tree
 
 
 class EditError(Exception):
-    """A file cannot be edited or written. The message names the file; ``written`` lists the files that were already written."""
+    """A file cannot be edited or written. The message names the file.
+
+    ``written`` lists the files that were written before the error.
+    """
 
     def __init__(self, message: str, written: Sequence[str] = ()) -> None:
         super().__init__(message)
@@ -27,7 +30,10 @@ class EditError(Exception):
 
 
 def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
-    """Return the fixes that can be applied together: a fix that overlaps an earlier returned fix is left out."""
+    """Return fixes that can be applied together, in order.
+
+    A fix whose edits overlap those of an earlier returned fix is left out.
+    """
     chosen: list[Fix] = []
     chosen_edits: list[Edit] = []
     for fix in fixes:
@@ -40,9 +46,9 @@ def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
 
 
 def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
-    """Return the new text of each changed file by path. The fixes must not overlap, see :func:`choose`.
+    """Return the new text of each file that the fixes change, by path. The fixes must not overlap, see :func:`choose`.
 
-    Raises EditError if a file has fewer lines than an edit assumes.
+    ``texts`` returns the text of a file by path. Raises EditError if a file has fewer lines than an edit assumes.
     """
     edits: dict[str, list[Edit]] = {}
     for fix in fixes:
@@ -54,7 +60,7 @@ def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
 
 
 def text_of(tree: Tree, path: str) -> Text:
-    """Return the text of a file to edit; an empty text if the file does not exist yet.
+    """Return the text of a file to edit; an empty text if the file does not exist.
 
     Raises EditError if the file cannot be read.
     """
@@ -67,9 +73,9 @@ def text_of(tree: Tree, path: str) -> Text:
 
 
 def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str, bytes]:
-    """Return the changed texts as bytes in the encoding of each file.
+    """Return changed texts as bytes, each in the encoding of its file. ``texts`` returns the unchanged text of a file by path.
 
-    Raises EditError if an encoding lacks a character.
+    Raises EditError if an encoding lacks a character of the text.
     """
     result = {}
     for path, text in changed.items():
@@ -81,7 +87,7 @@ def encode(changed: Mapping[str, str], texts: Callable[[str], Text]) -> dict[str
 
 
 def write(path: str, data: bytes) -> None:
-    """Replace or create one file atomically; write to it directly if it is a FIFO or a device.
+    """Replace or create a file atomically. A FIFO or a device is written directly.
 
     Raises EditError if the file cannot be written.
     """
@@ -100,8 +106,9 @@ def write(path: str, data: bytes) -> None:
 def write_all(base: str, changed: Mapping[str, bytes], before: Mapping[str, bytes]) -> None:
     """Replace or create files, each of them atomically. ``changed`` has the new contents by path relative to ``base``.
 
-    ``before`` has the contents on which the changes are based, without the files to create. A file with other contents
-    is not written. Raises EditError; if a file is read-only or has changed, this happens before any file is written.
+    ``before`` has the contents on which the changes are based, without the files to create. A file that has other
+    contents now is not written. Raises EditError. If a file is read-only or has other contents, the error is raised
+    before any file is written.
     """
     targets = {path: os.path.realpath(os.path.join(base, path)) for path in changed}
     for path, target in targets.items():
@@ -128,7 +135,7 @@ def _written_so_far(written: Sequence[str], unwritten: Sequence[str]) -> str:
 
 
 def _has_content(target: str, before: bytes | None) -> bool:
-    """Return whether a file has the content ``before``; None means that it does not exist."""
+    """Return whether a file has the content ``before``. None as ``before`` means that the file does not exist."""
     try:
         return files.read(target) == before
     except FileNotFoundError:
@@ -142,7 +149,7 @@ def _write_error(path: str, error: OSError) -> EditError:
 
 
 def _check_writable(path: str, target: str) -> None:
-    """Raise EditError if ``target`` cannot be replaced. ``path`` is its name in the message."""
+    """Raise EditError if the file ``target`` cannot be replaced. ``path`` is the path of the file in the message."""
     # The permission bits are checked, too, because root may write everywhere.
     folder = os.path.dirname(target)
     try:
@@ -156,7 +163,7 @@ def _check_writable(path: str, target: str) -> None:
 
 
 def _replace(path: str, target: str, data: bytes, may_replace: Callable[[], bool] = lambda: True) -> None:
-    """Write a temporary file in the folder of the target and rename it. Permissions and links are kept.
+    """Replace a file: write a temporary file in the folder of ``target`` and rename it. Permissions and links are kept.
 
     ``may_replace`` is called just before the renaming; if it returns False, the target is not replaced. Raises EditError,
     with the target unchanged.
@@ -186,12 +193,12 @@ def _replace(path: str, target: str, data: bytes, may_replace: Callable[[], bool
 _PREFIX, _SUFFIX = ".ros-lint-", ".part"
 _TEMPORARY_NAME = re.compile(rf"{re.escape(_PREFIX)}[a-z0-9_]{{8}}{re.escape(_SUFFIX)}")
 _ABANDONED_AGE = 3600
-"""Age in seconds of a temporary file from which no running process needs it."""
+"""Age in seconds from which a temporary file is certainly not in use by a running process."""
 _NEW_MODE = 0o644
 
 
 def _remove_leftovers(folder: str) -> None:
-    """Remove the temporary files of killed runs from a folder."""
+    """Delete the temporary files that killed runs have left in a folder."""
     with os.scandir(folder) as entries:
         leftovers = [entry for entry in entries if _TEMPORARY_NAME.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
     for entry in leftovers:
@@ -217,7 +224,7 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
 
 
 def _indented(replacement: str, text: str, start: int) -> str:
-    """Return the text to insert at ``start``, its spaces replaced by tabs if the line there is indented with tabs."""
+    """Return the text to insert at ``start``, its spaces replaced by tabs if the line at ``start`` is indented with tabs."""
     line = text[text.rfind("\n", 0, start) + 1 : start]
     indent = line[: len(line) - len(line.lstrip(" \t"))]
     return replacement.replace(f"\n{' ' * len(indent)}", f"\n{indent}") if "\t" in indent else replacement
@@ -227,7 +234,7 @@ _BLANK = re.compile(r"\r\n|\n|\r")
 
 
 def _joined(edits: Sequence[Edit]) -> str:
-    """Return the joined text of the edits at one place, without double blank lines."""
+    """Return the joined text of several edits at the same place, without double blank lines."""
     result, kind = "", 0
     for edit in edits:
         text, same_group = edit.text, edit.kind == kind != 0

@@ -1,4 +1,4 @@
-"""Findings that other findings explain: a cause is shown, and its consequences are not."""
+"""Hide findings that are consequences of another finding, so that only the cause is shown."""
 
 from __future__ import annotations
 
@@ -13,11 +13,12 @@ if TYPE_CHECKING:
 
 
 def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] = ()) -> tuple[Issue, ...]:
-    """Return the issues that no other issue explains. Each has the findings that it explains in ``explained``.
+    """Return the issues that are no consequence of another issue. ``explained`` of each issue has its consequences.
 
-    - A cause explains findings of its own package with at most its own confidence, if all their distributions have the cause.
-    - A cause has the severity of the gravest finding that it explains, except for the rules in ``fixed_severities``.
-    - If issues only explain each other, all of them stay.
+    - A cause explains findings in its own package of at most its own confidence, if it occurs in all of their
+      distributions.
+    - A cause gets the severity of its most severe consequence, unless its rule is one of ``fixed_severities``.
+    - If issues explain only each other, all of them are returned.
     """
     packages = {issue.package for issue in issues if issue.finding.explains}
     by_package = {package: [issue for issue in issues if issue.package == package] for package in packages}
@@ -41,7 +42,7 @@ def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] 
 
 
 def _explained_by(cause: Issue, issues: Iterable[Issue]) -> list[Issue]:
-    """Return the elements of ``issues`` that the issue ``cause`` explains. All of them are about one package."""
+    """Return the elements of ``issues`` that ``cause`` explains. All of ``issues`` are about the package of ``cause``."""
     keys = {(consequence.rule, consequence.subject) for consequence in cause.finding.explains}
     return [
         issue
@@ -54,7 +55,7 @@ def _explained_by(cause: Issue, issues: Iterable[Issue]) -> list[Issue]:
 
 
 def _in_all_distros_of(issue: Issue, cause: Issue) -> bool:
-    """Return whether all distributions with an issue have its cause."""
+    """Return whether the issue ``cause`` occurs in all distributions in which ``issue`` occurs."""
     return not cause.distros or (bool(issue.distros) and set(issue.distros) <= set(cause.distros))
 
 

@@ -1,4 +1,4 @@
-"""Trials of fixes: the workspace is loaded and checked with the changed files in memory."""
+"""Try fixes in memory: load and check the workspace with the changed files, without writing them."""
 
 from __future__ import annotations
 
@@ -26,26 +26,26 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Workspace
 
 _MOST_TRIALS = 2
-"""Number of trials to keep in memory, because a successful trial is needed again at once."""
+"""Number of trials to keep in memory, because the result of a successful trial is needed again immediately."""
 
 DistroIdentity = tuple[str, str]
-"""A distribution and the identity of an issue in it."""
+"""A distribution, and the identity (rule, package and subject) of an issue in it."""
 
 
 class Trial(NamedTuple):
-    """A workspace loaded with changed files, for each distribution of the run, and its issues."""
+    """The workspace loaded with changed files, once for each distribution of the run, and its issues."""
 
     changed: Mapping[str, bytes]
-    """New content of files by path."""
+    """The new contents of the changed files, by path."""
     workspaces: tuple[Workspace, ...]
     issues: tuple[Issue, ...]
 
     def identity_counts(self) -> Counter[DistroIdentity]:
-        """Return the number of issues with the same identity in the same distribution."""
+        """Return the number of issues for each pair of a distribution and an identity."""
         return self._counts(self.issues)
 
     def serious_counts(self) -> Counter[DistroIdentity]:
-        """Return the number of serious issues with the same identity in the same distribution."""
+        """Return the number of serious issues for each pair of a distribution and an identity."""
         return self._counts(self.serious)
 
     def _counts(self, issues: Iterable[Issue]) -> Counter[DistroIdentity]:
@@ -53,19 +53,19 @@ class Trial(NamedTuple):
 
     @property
     def serious(self) -> list[Issue]:
-        """The issues of high confidence, of rules that are on by default."""
+        """The issues with high confidence of rules that are on by default."""
         return [issue for issue in self.issues if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
 
     def identities(self, issue: Issue) -> list[DistroIdentity]:
-        """Return the identity of an issue in each distribution that has it."""
+        """Return the identity of an issue for each distribution that has it, in pairs with the distribution."""
         return [(distro, issue.identity) for distro in issue.distros or self.workspaces[0].target.distros]
 
 
 class FixTrials:
     """Tries fixes on the workspace of a loader. It implements :class:`ros_lint.engine.fixing.Trials`.
 
-    Only files below ``roots`` are written. ``rules`` are all rules, selected or not. With ``unsafe``, fixes that may
-    change behaviour are tried as well.
+    Only files below ``roots`` are changed. ``rules`` are all rules, including those that are not selected. If ``unsafe``
+    is True, fixes that may change the behaviour of programs are tried as well.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class FixTrials:
         self._unsafe = unsafe
         self._trials: list[Trial] = []
         self._files_to_edit: set[str] = set()
-        """Paths of the files that fixes edit. The loader keeps their bytes from the first reading."""
+        """Paths of the files that fixes edit. The loader keeps their bytes as first read."""
 
     @cached_property
     def _writable(self) -> Writable:
@@ -89,7 +89,7 @@ class FixTrials:
         return Writable(self._loader.tree, self._roots, list(dict.fromkeys([*package_files, *manifests])))
 
     def trial(self, changed: Mapping[str, bytes]) -> Trial:
-        """Return the workspace with changed files, loaded and checked."""
+        """Return the workspace with the contents ``changed`` of files (by path), loaded and checked."""
         for trial in self._trials:
             if trial.changed == changed:
                 return trial
@@ -100,14 +100,14 @@ class FixTrials:
         return trial
 
     def patch(self, changed: Mapping[str, bytes]) -> bytes:
-        """Return the changes as a unified diff against the files that were read."""
+        """Return a unified diff from the files as read to the contents ``changed``."""
         return b"".join(unified_bytes(path, self._loader.pinned.get(path), data) for path, data in sorted(changed.items()))
 
     def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
-        """Return the shown issues with a fix that is of the selected kind and may be written.
+        """Return the issues to show that have a fix of the selected kind which edits only files that may be changed.
 
-        The spans of edits are valid for one state of a file only. Therefore the loader keeps the bytes of the files to
-        edit, and the workspace is checked again with them.
+        Spans of edits are valid only for one version of a file. Therefore the loader keeps the bytes of the files to
+        edit, and the workspace is checked again with these bytes.
         """
         while True:
             issues = [issue for issue in self._fixable_issues(changed) if not self._refusal(issue)]
@@ -159,11 +159,11 @@ class FixTrials:
         return issue._replace(finding=issue.finding._replace(span=place))
 
     def _refusal(self, issue: Issue) -> str:
-        """Return why a file that the fix of an issue edits must not be written, "" if all may be written."""
+        """Return the reason why a file that the fix of an issue edits must not be changed, "" if all its files may be changed."""
         return next(filter(None, map(self._writable.refusal, _edited_files(issue))), "")
 
     def _fixable_issues(self, changed: Mapping[str, bytes]) -> list[Issue]:
-        """Return the shown issues with a fix of the selected kind."""
+        """Return the issues to show that have a fix of the selected kind: safe, or also unsafe."""
         issues = [issue for issue in self.trial(changed).issues if issue.rule in self._selection.rules]
         issues = [issue for issue in issues if is_below_any(issue.finding.span.path, self._roots)]
         shown, _ = show(issues, self._selection)
@@ -172,7 +172,7 @@ class FixTrials:
     def _recovers_next_round(
         self, before: Trial, changed: Mapping[str, bytes], group: Sequence[Issue], new_findings: Sequence[Issue]
     ) -> bool:
-        """Return whether fixes of the next round resolve all findings that the fixes of a group cause."""
+        """Return whether fixes of the next round resolve all new findings that the fixes of ``group`` cause."""
         names = {issue.identity for issue in new_findings}
         issues = [issue for issue in self.fixable(changed) if issue.identity in names]
         fixes = [issue.finding.fix for issue in issues if issue.finding.fix]
@@ -191,23 +191,24 @@ class FixTrials:
 
 
 def _edited_files(issue: Issue) -> Iterable[str]:
-    """Return the files that the fix of an issue edits."""
+    """Return the paths of the files that the fix of an issue edits."""
     fix = issue.finding.fix
     return dict.fromkeys(edit.span.path for edit in fix.edits) if fix else ()
 
 
 def _written_names(issue: Issue) -> list[str]:
-    """Return the names in the texts that the fix of an issue writes: a whole text, or the content of a tag."""
+    """Return the names that the fix of an issue inserts, each as a whole text or as the content of an XML element."""
     fix = issue.finding.fix
     texts = [edit.text for edit in fix.edits] if fix else []
     return [name for text in texts for name in re.findall(r"(?:>|\A)([\w.+-]+)(?=<|\Z)", text)]
 
 
 def _new_findings(before: Trial, after: Trial, group: Sequence[Issue]) -> list[Issue]:
-    """Return the new findings in any distribution, limited to high confidence and to rules that are on by default.
+    """Return the findings that the fixes of ``group`` cause in any distribution.
 
-    A finding about the subject of a fix, or about a name that a fix writes into a tag, is also new if its confidence becomes
-    high. Other findings may change: an undeclared dependency, for example, can become a transitive dependency.
+    Only findings with high confidence, of rules that are on by default, count. A finding about the subject of a fix, or
+    about a name that a fix inserts, also counts if its confidence becomes high. Otherwise findings may change: an
+    undeclared dependency, for example, can become a transitive dependency.
     """
     earlier, count = before.identity_counts(), after.identity_counts()
     earlier_serious, serious = before.serious_counts(), after.serious_counts()
@@ -222,6 +223,6 @@ def _new_findings(before: Trial, after: Trial, group: Sequence[Issue]) -> list[I
 
 
 def _unresolved(before: Trial, after: Trial, group: Sequence[Issue]) -> list[Issue]:
-    """Return the issues of a group that are not resolved by their fixes in all their distributions."""
+    """Return the issues of ``group`` that still exist after their fixes in at least one of their distributions."""
     earlier, count = before.identity_counts(), after.identity_counts()
     return [issue for issue in group if any(count[name] >= earlier[name] for name in after.identities(issue))]

@@ -1,8 +1,9 @@
-"""Choose the fixes to apply: each is verified in trials before it is kept.
+"""Choose the fixes to apply. Each fix is tried in memory and checked before it is kept.
 
-A fix is kept if the workspace, loaded and checked again with the fix, no longer has its finding and has no new finding. A
-new finding is accepted if a fix of the next round resolves it: a launch file that one fix installs can need a dependency that
-another fix declares. So no fix is written that, for example, closes a dependency cycle or names an unknown key.
+A fix is kept if the workspace, loaded and checked again with the fix, no longer has the fixed finding and has no new
+finding. A new finding is accepted if a fix of the next round resolves it: a launch file that one fix installs can need a
+dependency that another fix declares. So no fix is written that, for example, closes a dependency cycle or inserts an
+unknown rosdep key.
 """
 
 from __future__ import annotations
@@ -18,28 +19,31 @@ if TYPE_CHECKING:
     from ros_lint.engine.report import Issue
 
 _MOST_ROUNDS = 100
-"""Maximum number of rounds. Of fixes that conflict or depend on each other, each round applies one."""
+"""Maximum number of rounds. If fixes conflict or depend on each other, each round applies one of them."""
 
 
 class FixResult(NamedTuple):
-    """The fixes that were verified, and the fixes that were skipped."""
+    """The fixes that passed their trials, and the fixes that were skipped."""
 
     changed: Mapping[str, bytes]
-    """New content by path."""
+    """The new contents of the changed files, by path."""
     applied: tuple[Issue, ...]
     skipped: tuple[tuple[Issue, str], ...]
-    """Issues whose fix was not applied, with their span in the files on disk, each with the reason."""
+    """Issues whose fix was not applied, each with the reason. Their spans refer to the files on disk."""
 
 
 class Regression(NamedTuple):
-    """A reason not to apply a group of fixes, with the package and the subject of the finding that they would cause."""
+    """A reason not to apply a group of fixes.
+
+    If they would cause a finding, ``package`` and ``subject`` are those of the finding.
+    """
 
     reason: str
     package: str | None = None
     subject: str | None = None
 
     def suspects(self, group: Sequence[Issue]) -> list[Issue]:
-        """Return the issues of ``group`` whose fixes most likely cause the regression, by package and subject."""
+        """Return the issues of ``group`` whose fixes most likely cause this regression, judging by package and subject."""
         same_package = [issue for issue in group if issue.package == self.package]
         same_subject = [issue for issue in group if issue.finding.subject == self.subject]
         both = [issue for issue in same_package if issue in same_subject]
@@ -47,28 +51,29 @@ class Regression(NamedTuple):
 
 
 class Trials(Protocol):
-    """Tries fixes on a workspace without writing them. ``changed`` is the new content of files by path."""
+    """Tries fixes on a workspace without writing them. ``changed`` has the new contents of changed files, by path."""
 
     def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
-        """Return the issues that have a fix of the selected kind."""
+        """Return the issues that have a fix of the selected kind: safe, or also unsafe."""
 
     def applied(self, changed: Mapping[str, bytes], group: Iterable[Issue]) -> dict[str, bytes]:
-        """Return ``changed`` with the fixes of a group applied to it. Raises EditError if they cannot be combined."""
+        """Return ``changed`` with the fixes of ``group`` applied to it. Raises EditError if the fixes cannot be combined."""
 
     def regressions(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> tuple[Regression, ...]:
-        """Return the reasons not to apply the fixes of a group, () if there are none."""
+        """Return the reasons not to apply the fixes of ``group``, () if there are none."""
 
     def original(self, changed: Mapping[str, bytes], issue: Issue) -> Issue:
-        """Return an issue of the changed workspace with its span in the files on disk."""
+        """Return ``issue``, whose span is in the changed files, with its span in the files on disk."""
 
     def refused(self, changed: Mapping[str, bytes]) -> list[tuple[Issue, str]]:
-        """Return the issues whose fixes must not be written, each with the reason."""
+        """Return the issues whose fixes edit a file that must not be changed, each with the reason."""
 
 
 def fix(trials: Trials, unsaved: Mapping[str, bytes] = MappingProxyType({})) -> FixResult:
-    """Return all fixes that can be verified. Nothing is written.
+    """Return all fixes that pass their trials. No file is written.
 
-    ``unsaved`` has the contents of files, by path, that replace those on disk; they are part of the changed files.
+    ``unsaved`` has contents, by path, that replace those on disk, such as unsaved files of an editor. They are part of
+    ``FixResult.changed``.
     """
     changed = unsaved
     applied: list[Issue] = []
@@ -83,12 +88,15 @@ def fix(trials: Trials, unsaved: Mapping[str, bytes] = MappingProxyType({})) -> 
 
 
 class _Round:
-    """Applies fixes in groups as large as possible, each group in addition to the earlier ones."""
+    """One round of trials.
+
+    It applies fixes in groups that are as large as possible, each group in addition to the earlier groups.
+    """
 
     def __init__(self, trials: Trials, changed: Mapping[str, bytes]) -> None:
         self._trials = trials
         self._groups: list[frozenset[str]] = []
-        """Groups of issues to try, by their identities."""
+        """Groups of issues whose fixes are still to be tried, each group as the identities of its issues."""
         self.changed = changed
         self.applied: list[Issue] = []
         self.skipped: dict[str, tuple[Issue, str]] = {}
@@ -99,10 +107,11 @@ class _Round:
             self._try(self._groups.pop())
 
     def _try(self, identities: frozenset[str]) -> None:
-        """Apply or skip the fixes of the issues with ``identities``; postpone the fixes that need a trial in a smaller group.
+        """Apply or skip the fixes of the issues with ``identities``. Postpone the fixes that need a trial in a smaller group.
 
-        Most groups are large, and few of their fixes cause a regression. So the suspects are postponed first. If the other
-        fixes cause none, a suspect with a regression of its own needs no further trial. Otherwise the group is halved.
+        Most groups are large, and few of their fixes cause a regression. So the suspected fixes are postponed first. If
+        the other fixes cause no regression, a suspect with a regression of its own is skipped without another trial.
+        Otherwise the group is halved.
         """
         issues = [issue for issue in self._trials.fixable(self.changed) if issue.identity in identities]  # with current spans
         fixes = edits.choose(issue.finding.fix for issue in issues if issue.finding.fix)
@@ -146,9 +155,9 @@ def _only_removes(issue: Issue) -> bool:
 
 
 def _suspects(group: Sequence[Issue], regressions: Iterable[Regression]) -> Mapping[Issue, str]:
-    """Return the issues whose fixes may cause the regressions.
+    """Return the issues whose fixes may cause the regressions, each with a reason.
 
-    The value of an issue is the reason of a regression for which it is the only suspect, "" if there is none.
+    The reason is that of a regression for which the issue is the only suspect, "" if there is no such regression.
     """
     reasons: dict[Issue, str] = {}
     for regression in regressions:

@@ -1,7 +1,7 @@
-"""Rules that were divided or removed, so that messages can name what replaces them.
+"""Rules that were divided or removed. Messages tell the user which rules replace them.
 
-A former name or code selects and suppresses nothing. It is an error in settings and on the command line, and a finding of
-``unknown-rule-in-suppression`` in a comment.
+The name or code of a former rule selects and suppresses no rule. In settings and on the command line it is an error. In a
+comment it is a finding of the rule ``unknown-rule-in-suppression``.
 """
 
 from __future__ import annotations
@@ -10,16 +10,16 @@ from typing import NamedTuple
 
 
 class FormerRule(NamedTuple):
-    """A rule that no longer exists."""
+    """A rule that no longer exists, because it was divided or removed."""
 
     name: str
     code: str
     successors: tuple[str, ...] = ()
-    """The rules into which it was divided; empty if it was removed."""
+    """The names of the rules into which the rule was divided; () if it was removed."""
 
     @property
     def fate(self) -> str:
-        """The end of the message that begins with "rule 'x'": "was removed; ...", or "was divided into 'y' and 'z'; ..."."""
+        """The end of a message that begins with "rule 'x'": "was removed; ..." or "was divided into 'y' and 'z'; ..."."""
         *others, last = (f"'{name}'" for name in self.successors or ("",))
         if not others:
             return "was removed; delete its name"
@@ -58,5 +58,5 @@ FORMER = (
 
 
 def former_rule(selector: str) -> FormerRule | None:
-    """Return the former rule with this name or code, in upper or lower case; None if there is none."""
+    """Return the former rule whose name or code is ``selector``, in upper or lower case; None if there is none."""
     return next((rule for rule in FORMER if selector.lower() in (rule.name, rule.code.lower())), None)

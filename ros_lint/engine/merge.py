@@ -1,4 +1,4 @@
-"""Merge the findings of a workspace for several distributions into one list."""
+"""Merge the findings for several distributions of ROS into one list."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ if TYPE_CHECKING:
     from ros_lint.engine.report import Issue
 
 DistroIssue = tuple["_DistroFindings", "Issue"]
-"""A finding, and the findings of its distribution."""
+"""The findings for a distribution, and one of these findings."""
 
 
 def merge(issues_by_distro: Sequence[tuple[str, Sequence[Issue]]]) -> tuple[Issue, ...]:
     """Return the merged findings for several distributions, given pairs of a distribution and its findings.
 
     - Findings are merged into one if rule, package, subject, place, severity and confidence are equal.
-    - The merged finding has the message for the first distribution that has it. The message ends with
-      "(reported only for jazzy)" if not all distributions have the finding.
-    - Its fix is safe only if every distribution has a safe fix with the same edits, for a finding of the same or of another rule.
-    - It explains findings only if it does so in every distribution that has them.
+    - The message is that for the first distribution with the finding. It ends with "(reported only for jazzy)" if not all
+      distributions have the finding.
+    - Its fix is safe only if every distribution has a safe fix with the same edits, of any rule.
+    - It explains another finding only if it does so in every distribution that has the other finding.
 
     The result is not sorted.
     """
@@ -44,7 +44,7 @@ def merge(issues_by_distro: Sequence[tuple[str, Sequence[Issue]]]) -> tuple[Issu
 
 
 class _DistroFindings:
-    """The findings for one distribution."""
+    """The findings for one distribution of ROS."""
 
     def __init__(self, name: str, issues: Sequence[Issue]) -> None:
         self.name = name
@@ -52,17 +52,21 @@ class _DistroFindings:
 
     @cached_property
     def safe_edits(self) -> frozenset[object]:
-        """The edits of each safe fix."""
+        """The edits of all safe fixes: one tuple of edits for each fix."""
         return frozenset([issue.finding.fix.edits for issue in self.issues if issue.finding.fix and issue.finding.fix.safe])
 
     @cached_property
     def _subjects(self) -> frozenset[tuple[str, str, str]]:
-        """Package, rule and subject of each finding; and package, rule and "", which stands for all subjects."""
+        """Package, rule and subject of each finding; also package, rule and "", because "" in a Consequence means any subject."""
         subjects = [(issue.package, issue.rule.name, issue.finding.subject) for issue in self.issues]
         return frozenset([*subjects, *((package, rule, "") for package, rule, _ in subjects)])
 
     def accepts(self, entry: Consequence, issue: Issue) -> bool:
-        """Return whether ``issue``, a finding of this distribution, explains ``entry``, or no finding of it is ``entry``."""
+        """Return whether the merged finding may explain ``entry``, as far as this distribution is concerned.
+
+        ``issue`` is the finding for this distribution. It must explain ``entry``, or this distribution must have no
+        finding that ``entry`` describes.
+        """
         return entry in issue.finding.explains or (issue.package, entry.rule, entry.subject) not in self._subjects
 
 
@@ -85,7 +89,7 @@ def _merged(group: Sequence[DistroIssue], distros: Sequence[_DistroFindings]) ->
 
 
 def _merged_fix(fixes: Sequence[Fix | None], distros: Iterable[_DistroFindings]) -> Fix | None:
-    """Return the fix of a merged finding; None if a distribution has the finding without a fix."""
+    """Return the fix of a merged finding; None if any of the merged findings has no fix."""
     first = fixes[0]
     if first is None or None in fixes:
         return None

@@ -1,7 +1,8 @@
-"""Rules of plugins: Python packages that are installed next to ros-lint, with an entry point in ``ros_lint.rules``.
+"""Load the rules of plugins: installed Python packages with an entry point in the group ``ros_lint.rules``.
 
-The codes of a plugin begin with letters that no other plugin uses, so that codes of two plugins never collide and the
-letters select the rules of one plugin. A collision is an error, because settings and suppressions would be ambiguous.
+The codes of a plugin begin with letters that no other plugin uses, so that the codes of two plugins never collide and the
+letters select all rules of the plugin. A collision is an error, because settings and suppression comments would be
+ambiguous.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from ros_lint.errors import UserError
 
 GROUP: Final = "ros_lint.rules"
 RESERVED: Final = "ROS"
-"""The letters of the codes of ros-lint."""
+"""The letters with which the codes of ros-lint's own rules begin."""
 
 _CODE = re.compile(r"([A-Z]+)[0-9]+")
 _NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
@@ -26,21 +27,22 @@ _SELECTORS = ("all", "default")
 
 
 class PluginError(UserError):
-    """A plugin that cannot be loaded, or a rule of a plugin with the name or code of another rule, or with an invalid one."""
+    """A plugin cannot be loaded, or one of its rules has an invalid name or code, or that of another rule."""
 
 
 class Plugin(NamedTuple):
-    """The rules of one installed distribution."""
+    """The rules of a plugin, which is one installed Python distribution."""
 
     name: str
-    """Name and version of the distribution: "acme-rules 1.0"."""
+    """Name and version of the Python distribution: "acme-rules 1.0"."""
     rules: tuple[Rule, ...]
 
 
 def load(builtin: Sequence[Rule], builtin_module: str) -> tuple[Plugin, ...]:
     """Return the installed plugins, sorted by name. Raises PluginError.
 
-    ``builtin`` are the rules of ros-lint, whose own entry point names ``builtin_module``.
+    ``builtin`` are the rules of ros-lint itself. ``builtin_module`` is the module in the entry point of ros-lint itself,
+    which is left out.
     """
     entries = groupby(_entries(builtin_module), key=_owner)
     plugins = tuple(Plugin(name, tuple(rule for entry in group for rule in _loaded(name, entry))) for name, group in entries)
@@ -50,7 +52,7 @@ def load(builtin: Sequence[Rule], builtin_module: str) -> tuple[Plugin, ...]:
 
 
 def installed(builtin_module: str) -> tuple[str, ...]:
-    """Return the names and versions of the installed plugins, sorted. None of their code is loaded."""
+    """Return the names and versions of the installed plugins, sorted. The plugins are not imported."""
     return tuple(dict.fromkeys(_owner(entry) for entry in _entries(builtin_module)))
 
 
@@ -71,7 +73,7 @@ def _loaded(owner: str, entry: EntryPoint) -> tuple[Rule, ...]:
 
 
 def problems(builtin: Sequence[Rule], plugins: Iterable[Plugin]) -> Iterator[str]:
-    """Yield a message for each rule name or code of a plugin that is invalid, or the same as in another rule."""
+    """Yield a message for each rule of a plugin whose name or code is invalid or is also that of another rule."""
     owner_of_name = {rule.name: "ros-lint" for rule in builtin}
     owner_of_letters: dict[str, str] = {}
     for plugin in plugins:
@@ -85,7 +87,10 @@ def problems(builtin: Sequence[Rule], plugins: Iterable[Plugin]) -> Iterator[str
 
 
 def _code_problem(rule: Rule, owner: str, owner_of_letters: dict[str, str]) -> str:
-    """Return what is wrong with the code of a rule, or "". Adds the letters of the code to ``owner_of_letters``."""
+    """Return a message about the code of a rule of a plugin, "" if it is valid.
+
+    Adds the letters of the code to ``owner_of_letters``.
+    """
     its_code = f"{owner}: the code '{rule.code}' of its rule '{rule.name}'"
     code = _CODE.fullmatch(rule.code)
     if code is None:
@@ -100,7 +105,7 @@ def _code_problem(rule: Rule, owner: str, owner_of_letters: dict[str, str]) -> s
 
 
 def _name_problem(rule: Rule, owner: str, owner_of_name: dict[str, str]) -> str:
-    """Return what is wrong with the name of a rule, or "". Adds the name to ``owner_of_name``."""
+    """Return a message about the name of a rule of a plugin, "" if it is valid. Adds the name to ``owner_of_name``."""
     if _NAME.fullmatch(rule.name) is None or rule.name in _SELECTORS:
         return f"{owner}: the rule name '{rule.name}' is invalid; write words with hyphens, such as 'old-name'"
     if other := owner_of_name.get(rule.name):

@@ -1,8 +1,8 @@
-"""Discovery of rules: built-in ones and plugins, by the entry point group ``ros_lint.rules``.
+"""Find the rules of ros-lint and of plugins by the entry point group ``ros_lint.rules``.
 
-An entry names a module or a package; every ``RULE`` in it and in its direct submodules is loaded. The built-in entry is
-known without a search, because ``importlib.metadata`` takes longer than most runs. Plugins are only searched with
-``--plugins``.
+An entry point names a module or package. The object ``RULE`` of this module and of each direct submodule is a rule. The
+entry point of ros-lint itself is not searched for, because ``importlib.metadata`` takes longer than most runs. Plugins
+are searched for only with ``--plugins``.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ BUILTIN = "ros_lint_rules"
 
 @lru_cache(maxsize=2)
 def load(plugins: bool = False) -> tuple[Rule, ...]:
-    """Return the built-in rules, and with ``plugins`` the rules of plugins, sorted by code. Raises PluginError."""
+    """Return the rules of ros-lint, and if ``plugins`` is True those of plugins, sorted by code. Raises PluginError."""
     rules = list(rules_of(importlib.import_module(BUILTIN)))
     if plugins:
         rules += [rule for plugin in _plugins() for rule in plugin.rules]
@@ -40,16 +40,19 @@ def _plugins() -> tuple[Plugin, ...]:
 
 
 def plugin_of(rule: str) -> str:
-    """Return name and version of the plugin that has the rule with this name, "" for a rule of ros-lint. Raises PluginError."""
+    """Return name and version of the plugin with a rule, "" for a rule of ros-lint. ``rule`` is the rule's name.
+
+    Raises PluginError.
+    """
     if any(rule == builtin.name for builtin in load()):
         return ""
     return next((plugin.name for plugin in _plugins() if any(rule == other.name for other in plugin.rules)), "")
 
 
 def matching(rules: Sequence[Rule], selector: str) -> tuple[Rule, ...]:
-    """Return the rules that match a selector: ``all``, ``default``, a name, a code or a code prefix.
+    """Return the rules that a selector means. A selector is ``all``, ``default``, a name, a code or a code prefix.
 
-    A code prefix is the letters of a code, or its letters and first digits: ``ROS``, ``ROS2``, ``ACME``.
+    A code prefix is the letters of a code, optionally with its first digits: ``ROS``, ``ROS2``, ``ACME``.
     """
     if selector == "all":
         return tuple(rules)
@@ -65,7 +68,10 @@ def _letters(code: str) -> str:
 
 
 def unknown_rule_message(rules: Sequence[Rule], selector: str) -> str:
-    """Return the message for a selector that matches no rule. It names ``--plugins`` if ``rules`` do not include plugins."""
+    """Return the error message for a selector that matches none of ``rules``.
+
+    The message mentions the option ``--plugins`` if ``rules`` include no rules of plugins.
+    """
     if former := former_rule(selector):
         return f"rule '{selector}' {former.fate}"
     words = [word for rule in rules for word in (rule.name, rule.code)]

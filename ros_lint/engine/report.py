@@ -1,4 +1,4 @@
-"""The report of a run: findings, hidden findings and what was not analysed."""
+"""The report of a run: the findings, the numbers of hidden findings, and the files and packages that were not analysed."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ if TYPE_CHECKING:
 
 
 class ExplainedFinding(NamedTuple):
-    """A finding that is not shown, because another finding explains it."""
+    """A finding that is not shown, because it is the consequence of another finding."""
 
     rule: str
-    """The name of its rule."""
+    """Name of the rule that reported the finding."""
     subject: str
     message: str
     span: Span
 
 
 class Issue(NamedTuple):
-    """A finding with its rule and the name of the package that has to change; "" if no package contains the place."""
+    """A finding with its rule and the package that has to change; the package is "" if no package contains the place."""
 
     rule: Rule
     package: str
     finding: Finding
     explained: tuple[ExplainedFinding, ...] = ()
-    """Findings that are not shown, because this finding explains them."""
+    """Findings that are not shown, because they are consequences of this finding."""
     distros: tuple[str, ...] = ()
-    """The distributions that have the finding; () if all distributions of the run have it."""
+    """The distributions of ROS with the finding; () if all distributions of the run have it."""
     other_messages: tuple[tuple[str, str], ...] = ()
-    """Pairs of a distribution and its message, for distributions whose message differs from that of the finding."""
+    """Pairs of a distribution and its message, for distributions with another message than that of ``finding``."""
 
     @property
     def severity(self) -> Severity:
@@ -45,7 +45,10 @@ class Issue(NamedTuple):
 
     @property
     def identity(self) -> str:
-        """Rule, package and subject as one text. It stays the same when lines move; several issues may share it."""
+        """Code of the rule, package and subject as one text.
+
+        It does not change when lines move; several issues can have the same text.
+        """
         return f"{self.rule.code}/{self.package}/{self.finding.subject}"
 
 
@@ -56,45 +59,48 @@ MINOR = "of lower severity than --min-severity"
 
 
 def page_url(rule_url: str, rule: Rule) -> str:
-    """Return the URL of the page of a rule from the URL with ``{rule}``; "" if that is "", and for rules of plugins."""
+    """Return the URL of the documentation page of a rule, given a URL with ``{rule}`` in place of the name.
+
+    Return "" if ``rule_url`` is "", or for a rule of a plugin.
+    """
     return rule_url.replace("{rule}", rule.name) if rule.code.startswith("ROS") else ""
 
 
 class HiddenCount(NamedTuple):
-    """Number of findings that are hidden.
+    """The number of findings that are hidden for one reason.
 
-    ``reason`` continues a sentence after "2 findings", as :data:`UNSURE` does.
+    ``reason`` continues a sentence after "2 findings", e.g. :data:`UNSURE`.
     """
 
     reason: str
     count: int  # type: ignore[assignment]  # a tuple counts things as well
     rules: tuple[tuple[str, int], ...] = ()
-    """The rules of findings that ``--pedantic`` shows, each with its number, sorted by name; () for other findings."""
+    """For findings that ``--pedantic`` shows, each rule with its number of findings, sorted by name; () for other findings."""
 
     @classmethod
     def of(cls, reason: str, issues: Iterable[Issue]) -> HiddenCount:
-        """Return the counts of the issues, in total and for each rule, with the reason why they are hidden."""
+        """Return the total number of ``issues`` and the number for each rule, with the reason why they are hidden."""
         rules = Counter(issue.rule.name for issue in issues)
         return cls(reason, rules.total(), tuple(sorted(rules.items())))
 
 
 class BlindSpot(NamedTuple):
-    """Something that could not be fully analysed in some packages."""
+    """A kind of contents, such as executables, that could not be fully analysed in some packages."""
 
     what: str
-    """The facet of the packages in words: "executables"."""
+    """Name of the kind of contents for messages: "executables"."""
     packages: tuple[str, ...]
     """The names of the packages, in the order of the workspace."""
 
 
 class Crash(NamedTuple):
-    """An exception that a rule raised for one package, or for the workspace if ``package`` is ""."""
+    """An exception that a rule raised. ``package`` is the name of the checked package, "" if the rule checked the workspace."""
 
     rule: str
     package: str
     traceback: str
     plugin: str = ""
-    """Name and version of the plugin that has the rule; "" for a rule of ros-lint."""
+    """Name and version of the plugin with the rule; "" for a rule of ros-lint."""
 
     @property
     def error(self) -> str:
@@ -103,16 +109,16 @@ class Crash(NamedTuple):
 
 
 class Report(NamedTuple):
-    """The result of a run. The same input gives the same report on any machine."""
+    """The result of a run. The same input gives the same report on every machine."""
 
     issues: tuple[Issue, ...]
-    """The findings to show, sorted by span, code and message."""
+    """The findings to show, sorted by span, rule code and message."""
     rules: tuple[Rule, ...]
     """The rules that ran, sorted by code."""
     packages: int
-    """Number of packages checked; 0 if no package was found."""
+    """Number of checked packages; 0 if no package was found."""
     target: TargetDistro
-    """The distribution of the run, with the others if there are several."""
+    """The distribution of ROS for which the packages were checked, with the other ones if there are several."""
     data_date: str
     """The date of the package index, as YYYY-MM-DD."""
     version: str
@@ -121,25 +127,28 @@ class Report(NamedTuple):
     not_checked: tuple[UnreadFile, ...] = ()
     blind_spots: tuple[BlindSpot, ...] = ()
     not_cloned: tuple[UnclonedRepositories, ...] = ()
-    """Repositories in lists of the workspace that are not cloned: their packages are unknown, not missing."""
+    """Repositories that the workspace lists but that are not cloned.
+
+    Their packages are unknown, so they do not count as missing.
+    """
     crashes: tuple[Crash, ...] = ()
     workspace: str = ""
-    """The checked folder, relative to the base as all paths are; "" for the base itself."""
+    """The checked folder, relative to the base folder of the run; "" for the base folder itself, or if there are several."""
     named_distros: tuple[NamedDistro, ...] = ()
-    """The distributions that the repository builds for; () if the user chose the distribution of the run."""
+    """The distributions that the repository is built for, judging by its files; () if the user chose the distribution."""
     context_packages: int = 0
-    """Number of packages that were only read to check the others. Their findings are not reported."""
+    """Number of packages outside the checked folders. They were read, but their findings are not reported."""
     ros1: tuple[str, ...] = ()
-    """The names of packages of ROS 1, whose dependencies and build scripts are not analysed, in the order of the workspace."""
+    """The names of packages of ROS 1, in the order of the workspace. Their dependencies and build scripts are not analysed."""
     warnings: tuple[str, ...] = ()
-    """Warnings about the command line and settings, which are printed to standard error."""
+    """Warnings about the command line and the settings, which are printed to standard error."""
     package_names: tuple[str, ...] = ()
     """The names of the checked packages, sorted."""
     rule_url: str = ""
-    """URL of the page of a rule, with ``{rule}`` in place of its name; "" if there are no links."""
+    """URL of the documentation of a rule, with ``{rule}`` in place of its name; "" if reports contain no links."""
 
     def url_of(self, rule: Rule) -> str:
-        """Return the URL of the page of a rule; "" if there are no links, and for rules of plugins."""
+        """Return the URL of the documentation page of a rule; "" if reports contain no links, or for a rule of a plugin."""
         return page_url(self.rule_url, rule)
 
     def count(self, severity: Severity) -> int:
@@ -147,5 +156,5 @@ class Report(NamedTuple):
         return sum(issue.severity is severity for issue in self.issues)
 
     def fixable(self, *, safe: bool) -> int:
-        """Return the number of issues with a safe fix (``safe`` true), or with an unsafe fix."""
+        """Return the number of issues with a fix: with a safe fix if ``safe`` is True, otherwise with an unsafe fix."""
         return sum(issue.finding.fix is not None and issue.finding.fix.safe is safe for issue in self.issues)

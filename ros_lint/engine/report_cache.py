@@ -1,4 +1,4 @@
-"""Cache of the last reports of a workspace."""
+"""A cache of the last reports of a workspace, which are reused if nothing has changed."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ if TYPE_CHECKING:
     from ros_lint.workspace.cache.file import CacheFile
 
 _MOST_REPORTS = 8
-"""Number of reports cached for a workspace, which may be checked with several sets of options."""
+"""Maximum number of cached reports of a workspace, because it may be checked with different options in turn."""
 
 
 class _CachedReport(NamedTuple):
-    """A report with the answers of each tree that it depends on."""
+    """A report, and for each file tree the recorded answers that the report depends on."""
 
     report: Report
     answers: tuple[Answers, ...]
 
 
 class ReportCache:
-    """The last reports of a workspace in its cache file.
+    """The last reports of a workspace, stored in its cache file.
 
-    A report depends on ``options`` (as text), the state of the files in ``data``, the code of ros-lint and the trees,
-    and on nothing else.
+    A report depends only on ``options`` (as text), the state of the files in ``data``, the code of ros-lint and the file
+    trees.
     """
 
     def __init__(self, file: CacheFile, options: str, data: Iterable[str]) -> None:
@@ -40,11 +40,11 @@ class ReportCache:
             self._name = self._prefix + digest(options)
 
     def __bool__(self) -> bool:
-        """Return whether reports are cached at all."""
+        """Return whether reports are cached in this run."""
         return bool(self._file)
 
     def fetch(self, trees: Sequence[RecordedTree]) -> Report | None:
-        """Return the cached report if the trees still give the answers that it depends on, else None."""
+        """Return the cached report if the file trees give the same answers as when it was stored, else None."""
         cached = self._file.read(lambda name: name == self._name, self._codec).get(self._name) if self._file else None
         if cached is None or len(cached.answers) != len(trees):
             return None
@@ -61,9 +61,10 @@ class ReportCache:
         return cached.report
 
     def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
-        """Store a report with the answers of the trees that it depends on.
+        """Store a report with the answers of the file trees in this run.
 
-        The functions of its rules are left out. A report is not stored if a rule crashed or a file changed meanwhile.
+        The functions of the rules in the report are not stored. Nothing is stored if a rule crashed or a file changed
+        during the run.
         """
         if not self._file or report.crashes or not all(tree.steady for tree in trees):
             return
@@ -76,7 +77,7 @@ class ReportCache:
         self._file.write({self._name: cached}, self._codec, self._obsolete)
 
     def _obsolete(self, names: Sequence[str]) -> list[str]:
-        """Return the names of reports of other versions, and of the oldest reports of this version."""
+        """Return the cached reports to delete, by name: those of other ros-lint versions, and the oldest of this version."""
         reports = [name for name in names if name.startswith("report-") and name != self._name]
         current = [name for name in reports if name.startswith(self._prefix)]
         return [name for name in reports if name not in current[1 - _MOST_REPORTS :]]

@@ -1,4 +1,4 @@
-"""Execution of rules over a workspace, with suppressions applied."""
+"""Run rules on a workspace, and apply suppression comments to the findings."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.workspace.model import Package, Workspace
 
 EVERYWHERE = ("",)
-"""The folders of a run that reports all findings."""
+"""The value of ``folders`` for a run that reports all findings."""
 
 
 def run_rules(
@@ -48,7 +48,7 @@ def run_rules(
 
 
 def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:
-    """Yield the findings of a rule in ``package``; for a rule of workspaces (``package`` is None), in the whole workspace."""
+    """Yield the findings of a rule in ``package``; if ``package`` is None, those of a rule for whole workspaces."""
     if rule.package is not None and package is not None:
         for finding in rule.package(package, workspace.seen_from(package)):
             yield Issue(rule, package.name, _with_place(finding))
@@ -58,7 +58,10 @@ def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterat
 
 
 def _with_place(finding: object) -> Finding:
-    """Return what a rule yields if it is a finding with a place. Raises TypeError, because plugins need not be type-checked."""
+    """Return the object that a rule has yielded if it is a finding with a place, else raise TypeError.
+
+    This is checked because plugins need not be type-checked.
+    """
     if not isinstance(finding, Finding):
         raise TypeError(f"a rule must yield Finding, not {type(finding).__name__}")
     if not isinstance(finding.span, Span):
@@ -67,16 +70,16 @@ def _with_place(finding: object) -> Finding:
 
 
 def _is_about(issue: Issue, names: Container[str], folders: Sequence[str]) -> bool:
-    """Return whether an issue of a rule of workspaces is about one of the named packages, or in a file below ``folders``."""
+    """Return whether an issue of a rule for workspaces is about one of the packages ``names``, or in a file below ``folders``."""
     finding = issue.finding
     return finding.package in names if finding.package else is_below_any(finding.span.path, folders)
 
 
 class CheckedIssues(NamedTuple):
-    """The issues of a workspace after suppression comments are applied."""
+    """The issues of a workspace after suppression comments were applied."""
 
     issues: tuple[Issue, ...]
-    """The issues sorted by place, without suppressed ones."""
+    """The issues that are not suppressed, sorted by place."""
     suppressed: tuple[Issue, ...]
     crashes: tuple[Crash, ...]
 
@@ -88,10 +91,10 @@ def find_issues(
     all_rules: Sequence[Rule],
     folders: Sequence[str] = EVERYWHERE,
 ) -> CheckedIssues:
-    """Return the issues of ``rules`` about packages and files below ``folders``, after suppression.
+    """Return the issues of ``rules`` about packages and files below ``folders``, with suppression comments applied.
 
-    ``workspaces`` are the workspace for each distribution of the run; their issues are merged, so a suppression is unused only
-    if it is unused in all of them. ``all_rules`` are the rules that suppression comments may name.
+    ``workspaces`` has the workspace once for each distribution of the run. Their issues are merged, so a suppression
+    counts as unused only if it is unused in all of them. ``all_rules`` are the rules that suppression comments may name.
     """
     comments = tuple(suppressions)
     results = [run_rules(workspace, rules, folders) for workspace in workspaces]
@@ -116,12 +119,12 @@ def _owning_package(workspaces: Iterable[Workspace], path: str) -> str:
 
 
 def sort_key(issue: Issue) -> tuple[object, ...]:
-    """Return the sort key of issues: by place, then by rule."""
+    """Return the key by which issues are sorted: by place, then by rule."""
     finding = issue.finding
     return (finding.span, issue.rule.code, finding.message, finding.subject, issue.package)
 
 
 def owning_package(workspace: Workspace, path: str) -> str:
-    """Return the name of the package that contains a file, or ""."""
+    """Return the name of the package that contains a file, "" if there is none."""
     owner = workspace.owner(path)
     return owner.name if owner else ""

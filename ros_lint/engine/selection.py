@@ -1,4 +1,4 @@
-"""Selection of rules, and of the findings that are shown."""
+"""Select the rules to run and the findings to show."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ros_lint.errors import UserError
 
 
 class SelectionError(UserError):
-    """A selected rule that does not exist."""
+    """A selector in the settings or on the command line matches no rule."""
 
 
 class Selection(NamedTuple):
@@ -23,34 +23,34 @@ class Selection(NamedTuple):
 
     rules: tuple[Rule, ...]
     named: frozenset[str]
-    """Names of the rules selected by name or code: their findings of any confidence are shown."""
+    """Names of the rules that were selected by name or code. Their findings are shown whatever their confidence is."""
     severities: Mapping[str, Severity]
-    """Severities from the settings by the name of the rule."""
+    """The severities that the settings assign, by the name of the rule."""
     pedantic: bool
-    """True if findings of any confidence are shown."""
+    """True if findings of low and medium confidence are shown, too."""
     ignores: tuple[tuple[str, frozenset[str]], ...]
-    """Path patterns, each with the names of the rules to ignore in matching files."""
+    """Pairs of a path pattern and the names of rules whose findings are ignored in matching files."""
     off: tuple[Rule, ...] = ()
-    """Rules that are off by default and not mentioned in the settings."""
+    """Rules that are off by default and that the settings do not mention."""
     min_severity: Severity = Severity.INFO
     """The lowest severity of findings to show."""
 
     def severity(self, issue: Issue) -> Severity:
-        """Return the severity of an issue: from the settings, else its own."""
+        """Return the severity of an issue: that in the settings, else that of the issue itself."""
         return self.severities.get(issue.rule.name, issue.severity)
 
     def is_severe(self, issue: Issue) -> bool:
-        """Return whether the severity of an issue is at least the lowest severity to show."""
+        """Return whether the severity of an issue is high enough for the issue to be shown."""
         return self.severity(issue) >= self.min_severity
 
     def ignores_path(self, issue: Issue) -> bool:
-        """Return whether a path pattern ignores an issue."""
+        """Return whether the findings of the issue's rule are ignored in the issue's file."""
         name, path = issue.rule.name, issue.finding.span.path
         return any(name in names and matches(path, pattern) for pattern, names in self.ignores)
 
 
 def check_selectors(rules: Sequence[Rule], selectors: Iterable[str]) -> None:
-    """Raise SelectionError for a selector that matches no rule."""
+    """Raise SelectionError if one of ``selectors`` matches none of ``rules``."""
     for selector in selectors:
         _matching(rules, selector)
 
@@ -66,9 +66,9 @@ def select(
     pedantic: bool = False,
     min_severity: str = "info",
 ) -> Selection:
-    """Return the selection. Raises SelectionError for a selector that matches no rule.
+    """Return the selection that the settings make among ``rules``. Raises SelectionError for a selector that matches no rule.
 
-    A rule with a severity in the settings is selected; a rule set to off is not.
+    A rule to which the settings assign a severity is selected; a rule with the severity "off" is not.
     """
     selected: dict[str, Rule] = {}
     selected_by_name: set[str] = set()
@@ -102,9 +102,9 @@ def select(
 
 
 def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ...], tuple[HiddenCount, ...]]:
-    """Return the issues to show, with the severities of the settings, and counts of hidden issues.
+    """Return the issues to show, with the severities of the settings, and the numbers of hidden issues by reason.
 
-    Issues that another shown issue explains are hidden.
+    Issues that are consequences of another shown issue are hidden.
     """
     shown: list[Issue] = []
     unsure: list[Issue] = []
@@ -132,7 +132,10 @@ def show(issues: Iterable[Issue], selection: Selection) -> tuple[tuple[Issue, ..
 
 
 def matches(path: str, pattern: str) -> bool:
-    """Return whether a pattern matches a path. A pattern without a slash matches the file name, or any folder of the path."""
+    """Return whether a pattern matches a path.
+
+    A pattern without a slash matches the file name, or the name of any folder above it.
+    """
     pattern = pattern.rstrip("/")
     if "/" in pattern:
         return fnmatch.fnmatchcase(path, pattern) or fnmatch.fnmatchcase(path, f"{pattern}/*")

@@ -1,8 +1,8 @@
-"""Comments that suppress findings.
+"""Apply the comments that suppress findings.
 
-``ros-lint: ignore[rule, ...] reason`` applies to its line. If the line has nothing else, it applies to the next line
-that is not a comment. ``ros-lint: ignore-file[rule, ...] reason`` applies to the file; only other comments may precede
-it. For details, see docs/suppressions.md.
+``ros-lint: ignore[rule, ...] reason`` applies to its line. If the line contains only the comment, it applies to the next
+line that is not a comment. ``ros-lint: ignore-file[rule, ...] reason`` applies to the whole file; only other comments may
+precede it. For details, see docs/suppressions.md.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Outcome(NamedTuple):
-    """The effect of suppressions on issues."""
+    """The result of applying suppression comments to issues."""
 
     kept: tuple[Issue, ...]
     suppressed: tuple[tuple[Issue, Suppression], ...]
@@ -34,12 +34,12 @@ class Outcome(NamedTuple):
 def apply_suppressions(
     issues: Iterable[Issue], suppressions: Iterable[Suppression], all_rules: Iterable[Rule], ran: Container[str | None]
 ) -> Outcome:
-    """Return the effect of the suppressions on the issues.
+    """Return the result of applying the suppression comments to the issues.
 
     ``all_rules`` are the rules that comments may name. ``ran`` has the names of the rules that ran without a crash,
-    because only their suppressions can be unused. Call this before issues are hidden for other reasons, or else their
-    suppressions would count as unused. Call it again for the issues that rules report about suppressions; then only
-    ``kept`` of the result matters.
+    because only a suppression of these rules can be recognized as unused. Call this function before issues are hidden for
+    other reasons, or else their suppressions would count as unused. Call it again for the issues that rules report about
+    suppressions; then only ``kept`` of the result matters.
     """
     names = {key.lower(): rule.name for rule in all_rules for key in (rule.name, rule.code)}
     # Rules about suppressions run later, so their own suppressions cannot be judged yet.
@@ -83,7 +83,7 @@ def apply_suppressions(
 
 
 class _LineIndex:
-    """The suppressions of one rule in one file, indexed by line, because there may be thousands."""
+    """The suppressions of one rule in one file, indexed by line, because a file may have thousands."""
 
     def __init__(self, entries: Iterable[tuple[Suppression, Name]]) -> None:
         self._entries = sorted(entries, key=_first_line)
@@ -92,7 +92,7 @@ class _LineIndex:
         self._reach = list(accumulate([math.inf if mark.lines is None else mark.lines[1] for mark, _ in self._entries], max))
 
     def matching(self, issue: Issue) -> list[tuple[Suppression, Name]]:
-        """Return the suppressions that apply to the place of an issue, each with the name by which it names the rule."""
+        """Return the suppressions that apply to the place of an issue, each with the Name in it that refers to the rule."""
         first, last = lines_of(issue.finding.span)
         near = self._entries[bisect_left(self._reach, first) : bisect_right(self._firsts, last)]
         return [entry for entry in near if entry[0].covers(issue.finding.span)]
@@ -104,7 +104,10 @@ def _first_line(entry: tuple[Suppression, Name]) -> int:
 
 
 def _unknown(comment: Suppression, name: Name, spellings: Mapping[str, str]) -> UnknownSelector:
-    """Return the entry for an unknown name. ``spellings`` has the names and codes of all rules, by their lower-case form."""
+    """Return the entry for an unknown rule name in a comment.
+
+    ``spellings`` has the names and codes of all rules, by their lower-case form.
+    """
     if former := former_rule(name.text):
         return UnknownSelector(comment, name, "", former.fate)
     similar = similar_names(name.text.lower(), spellings)
