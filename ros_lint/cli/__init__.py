@@ -1,1 +1,1 @@
-"""The command line: arguments, settings, sessions and commands."""
+"""The command line of ros-lint: arguments, settings and commands."""

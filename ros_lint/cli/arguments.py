@@ -1,4 +1,4 @@
-"""The parser of the command line, built from the table of options in :mod:`ros_lint.cli.options`."""
+"""The parser of the command line. Its options come from the table in :mod:`ros_lint.cli.options`."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ _COMMON_OPTIONS = (
     BY_NAME["distro"]._replace(help=_ONE_DISTRO, metavar="NAME"),
     *(BY_NAME[name] for name in ("underlay", "config", "isolated", "jobs", "cache", "exclude", "progress")),
 )
-"""The options of the commands that answer for one distribution."""
+"""The options of the commands that work with one distribution of ROS, such as ``graph``."""
 _LSP_OPTIONS = (
     "distro", "underlay", "select", "extend-select", "ignore", "pedantic", "min-severity", "exclude", "plugins", "jobs", "cache",
     "config", "isolated",
 )  # fmt: skip
-"""The options of the language server."""
+"""The names of the options of ``ros-lint lsp``, the language server."""
 _WORKSPACE_HELP = "workspace (default: the workspace that contains the current folder)"
 _SIMILAR = 0.75
-"""Minimum similarity of an option to suggest: ``--exit-zero`` does not mean ``--distro``."""
+"""Minimum similarity (0 to 1) of an option to suggest it for an unknown one: ``--exit-zero`` does not suggest ``--distro``."""
 _EPILOG = """\
 commands (see also ros-lint COMMAND --help):
 {}
@@ -35,7 +35,7 @@ exit codes: 0 no findings at or above --fail-on, 1 such findings, 2 the run fail
 
 class _ArgumentParser(argparse.ArgumentParser):
     def reject(self, unknown: Sequence[str]) -> NoReturn:
-        """Exit with a message about unknown arguments."""
+        """Print an error message about unknown arguments and exit."""
         options = [text for action in self._actions for text in action.option_strings]
         hint = did_you_mean(similar_names(unknown[0].partition("=")[0], options, least=_SIMILAR))
         self.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
@@ -46,14 +46,14 @@ class _ArgumentParser(argparse.ArgumentParser):
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):
-    """A formatter of help texts that does not import ``shutil``, because argparse creates one for each option."""
+    """A formatter of help texts that does not import ``shutil``, because argparse creates a formatter for each option."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, width=_columns() - 2)
 
 
 def _columns() -> int:
-    """Return the width of the terminal as shutil.get_terminal_size does, at least 30."""
+    """Return the width of the terminal in columns, as shutil.get_terminal_size() does, but at least 30."""
     columns = os.environ.get("COLUMNS", "")
     if columns.isdecimal() and int(columns):
         return max(int(columns), 30)
@@ -64,7 +64,7 @@ def _columns() -> int:
 
 
 def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
-    """Return the name of the command, and the given options by name, with positional arguments such as ``paths``.
+    """Return the name of the command and the given options by name. Positional arguments, such as ``paths``, are included.
 
     Raises SystemExit for ``--help`` and for invalid arguments, as argparse does.
     """
@@ -82,7 +82,7 @@ def parse(arguments: Sequence[str]) -> tuple[str, dict[str, Any]]:
 
 
 def create_parser(command: str, *, top: bool = False) -> _ArgumentParser:
-    """Return the parser of a command. With ``top``, its help text describes ros-lint and lists all commands."""
+    """Return the parser of a command. If ``top`` is True, its help text describes ros-lint and lists all commands."""
     commands = "\n".join(f"  {name:17}{summary}" for name, summary in COMMANDS.items())
     parser = _ArgumentParser(
         "ros-lint" if top else f"ros-lint {command}",
@@ -240,16 +240,16 @@ def _add_option(parser: argparse.ArgumentParser, option: CliOption) -> None:
 
 
 def _number(text: str) -> int:
-    """Return the value of an option of the type "number". Raises ArgumentTypeError, as argparse expects."""
+    """Return the value of an option of the type "number". Raises ArgumentTypeError, as argparse requires, for other texts."""
     if text.isascii() and text.isdecimal() and len(text) <= len(str(MOST)) and int(text) <= MOST:
         return int(text)
     raise argparse.ArgumentTypeError(f"must be a whole number from 0 to {MOST}, not '{text}'")
 
 
 class _Words(argparse.Action):
-    """Splits values at commas: ``--select a,b --select c`` results in the tuple a, b, c.
+    """The argparse action of options with several values. It splits at commas: ``--select a,b --select c`` gives a, b, c.
 
-    The values of a flag with several values are not split.
+    The values of an option that takes several arguments (``--packages-select a b``) are not split.
     """
 
     def __call__(  # signature of argparse

@@ -1,4 +1,4 @@
-"""Check a workspace with the settings of a session: the steps that ``check``, ``--fix``, ``--since`` and the server share."""
+"""Check a workspace with the settings of a session: the steps that ``check``, ``--fix``, ``--since`` and ``lsp`` share."""
 
 from __future__ import annotations
 
@@ -25,10 +25,11 @@ def check_workspaces(
     warnings: Sequence[str] = (),
     changed: Mapping[str, bytes] = MappingProxyType({}),
 ) -> Report:
-    """Return the report of the loaded workspaces, one for each distribution, with the rules that the settings select.
+    """Return the report of the rules that the settings select.
 
-    Findings in ``folders`` are reported. ``warnings`` are added to those of the session. ``changed`` has the contents with
-    which files of the workspaces were replaced. Raises SelectionError, PluginError and KnowledgeError.
+    ``workspaces`` has the loaded workspace once for each distribution. Findings in ``folders`` are reported. ``warnings``
+    are added to those of the session. ``changed`` has contents of files, by path, that replaced those on disk when the
+    workspace was loaded. Raises SelectionError, PluginError and KnowledgeError.
     """
     rules = registry.load(session.settings["plugins"])
     context = ReportContext(rules, session.knowledge.date, tuple(folders), (*session.warnings, *warnings))
@@ -36,7 +37,7 @@ def check_workspaces(
 
 
 def selection_of(settings: Settings) -> Selection:
-    """Return the rules and findings that the settings select. Raises SelectionError and PluginError."""
+    """Return the selection of rules and findings that the settings make. Raises SelectionError and PluginError."""
     rules = registry.load(settings["plugins"])
     per_path = [name for names in settings["per-path-ignores"].values() for name in names]
     for option in ("select", "extend-select", "ignore", "severity", "per-path-ignores"):

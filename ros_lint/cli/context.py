@@ -1,4 +1,4 @@
-"""Find the package of a path, and the folder around the package. The other packages of this folder are read as context."""
+"""Find the folder to check for a path, and the larger workspace whose other packages are read to check it."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from ros_lint.base.paths import is_below, upwards
 from ros_lint.base.tree import DiskTree, repository_of
 
 _BUILT = ("build", "install", "log")
-"""Folders that colcon creates beside ``src``."""
+"""Folders that colcon creates next to ``src``."""
 
 
 def requested_folder(path: str) -> str:
-    """Return the folder to check for a path: the folder itself, or the package that contains the file or folder.
+    """Return the folder to check for a path: the package that contains it, else the folder itself.
 
-    ``path`` is absolute and exists. A folder that is in a package and contains packages of its own is not replaced. Returns ""
-    for a file outside any package.
+    Return "" for a file outside any package. ``path`` is absolute and exists. A folder that is in a package and contains
+    packages of its own is returned as it is.
     """
     folder = path if os.path.isdir(path) else os.path.dirname(path)
     if _is_package(folder):
@@ -29,11 +29,11 @@ def requested_folder(path: str) -> str:
 
 
 def context_of(folder: str) -> str:
-    """Return the absolute folder whose packages are read in order to check an absolute ``folder``.
+    """Return the absolute folder whose packages are read in order to check the absolute ``folder``.
 
-    It is the workspace that contains the folder, else the folder itself. A repository and a colcon workspace are checked
-    without the packages around them. The home folder and the folders above it are no context, because they contain
-    unrelated repositories.
+    It is the workspace that contains ``folder``, else ``folder`` itself. If ``folder`` is a repository or a colcon
+    workspace, packages around it are not read. The home folder and the folders above it are never returned, because they
+    contain unrelated repositories.
     """
     around = "" if _is_workspace(folder) else workspace_around(folder)
     home = os.path.realpath(os.path.expanduser("~"))
@@ -45,8 +45,9 @@ def workspace_around(folder: str) -> str:
 
     It is the first of these folders that exists:
 
-    - the folder whose ``src`` contains the package of ``folder``, if both are in one repository or colcon has built there,
-    - the repository.
+    - the folder whose ``src`` contains the package of ``folder``, if both are in one repository or colcon has built
+      there,
+    - the git repository that contains ``folder``.
     """
     folders = list(upwards(folder))
     repository = repository_of(folder)
@@ -61,9 +62,9 @@ def workspace_around(folder: str) -> str:
 
 
 def outermost_package(folder: str) -> str:
-    """Return the outermost package that contains an absolute folder, in its repository; else the folder itself.
+    """Return the outermost package in the same repository that contains an absolute folder; without a package, the folder itself.
 
-    colcon does not look for packages inside of packages.
+    colcon does not search for packages inside of packages, so an inner package is part of the outermost one.
     """
     repository = repository_of(folder)
     packages = [place for place in upwards(folder) if is_below(place, repository) and _is_package(place)]
@@ -71,7 +72,7 @@ def outermost_package(folder: str) -> str:
 
 
 def _is_workspace(folder: str) -> bool:
-    """Return whether a folder is a repository, or the folder or the ``src`` of a colcon workspace."""
+    """Return whether a folder is a git repository, or the root or the ``src`` folder of a colcon workspace."""
     if os.path.exists(os.path.join(folder, ".git")):
         return True
     is_source = os.path.basename(folder) == "src" and not _is_package(os.path.dirname(folder))

@@ -1,7 +1,7 @@
-"""Read commits of a git repository. git is called for reading objects only, so that nothing of the repository runs.
+"""Read the files of git commits. git is called only to read objects, so that no program of the repository is executed.
 
-The files are written as git stores them: no filters, hooks, attributes or work trees are involved, and missing objects of a
-partial clone are not fetched, because the configuration of a repository can name programs for all of these.
+The files are written as git stores them, without filters, hooks, attributes and work trees. Missing objects of a partial
+clone are not fetched. The reason is that the configuration of a repository can name programs for all of these.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ _LINK = b"120000"
 
 
 class GitError(UserError):
-    """A commit that cannot be read. The message names it and the reason."""
+    """A commit cannot be read. The message names the commit and the reason."""
 
 
 class _Blob(NamedTuple):
-    """A file of a commit."""
+    """A file or link in a commit: its mode, the name of its object (a hash) and its path."""
 
     mode: bytes
     name: bytes
@@ -39,7 +39,7 @@ class _Blob(NamedTuple):
 
 
 def merge_base(repository: str, ref: str, environment: Mapping[str, str]) -> str:
-    """Return the commit from which the checked-out commit and ``ref`` diverged. Raises GitError."""
+    """Return the commit at which the history of ``ref`` diverged from that of HEAD. Raises GitError."""
     named = _git(repository, environment, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{ref}^{{commit}}")
     if not named:
         raise GitError(f"--since: '{ref}' is not a commit of {repository}")
@@ -50,7 +50,7 @@ def merge_base(repository: str, ref: str, environment: Mapping[str, str]) -> str
 
 
 def write_files(repository: str, commit: str, folder: str, environment: Mapping[str, str]) -> None:
-    """Write the files and links of a commit into an empty folder. Submodules are left out. Raises GitError and OSError."""
+    """Write the files and links of a commit into an empty folder, without submodules. Raises GitError and OSError."""
     listing = _git(repository, environment, "ls-tree", "-r", "-z", "--full-tree", commit)
     blobs = list(_blobs(listing))
     names = b"".join(blob.name + b"\n" for blob in blobs)
@@ -81,9 +81,9 @@ def _write(path: str, mode: bytes, content: bytes) -> None:
 
 
 def _blobs(listing: bytes) -> Iterator[_Blob]:
-    """Yield the files and links of the output of ``git ls-tree -z``.
+    """Yield the files and links in the output of ``git ls-tree -z``.
 
-    Paths that lead out of the folder, which only forged trees have, are left out.
+    Paths that lead out of the folder are left out. Only forged trees have such paths.
     """
     for entry in listing.split(b"\0"):
         head, _, path = entry.partition(b"\t")
@@ -93,7 +93,7 @@ def _blobs(listing: bytes) -> Iterator[_Blob]:
 
 
 def _git(repository: str, environment: Mapping[str, str], *arguments: str, stdin: bytes = b"") -> bytes:
-    """Return the output of a command of git, b"" if it fails. Raises GitError if git cannot be run."""
+    """Return the output of a git command, b"" if the command fails. Raises GitError if git cannot be started."""
     try:
         command = ["git", "-C", repository, *arguments]
         safe = {**environment, **_SAFE}

@@ -1,6 +1,6 @@
 """Run a command: from the arguments of the command line to the exit code.
 
-Exit codes: 0 no findings, 1 findings, 2 the run failed. Each command imports its own dependencies, so that
+Exit codes: 0 no findings, 1 findings, 2 the run failed. Each command imports the modules that it needs itself, so that
 ``--version`` and ``--help`` start fast.
 """
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def run() -> NoReturn:
-    """Run the command of this process and exit."""
+    """Run the command in the arguments of this process, and exit."""
     gc.disable()  # a run builds one model and exits, and garbage collection would take a seventh of the time
     prepare()
     try:
@@ -33,7 +33,7 @@ def run() -> NoReturn:
 
 
 def _flush(code: int) -> int:
-    """Flush the standard streams. Returns the exit code, which is 2 if that fails."""
+    """Flush the standard streams. Return ``code``, or 2 if they cannot be flushed."""
     try:
         sys.stdout.flush()
         sys.stderr.flush()
@@ -45,7 +45,7 @@ def _flush(code: int) -> int:
 
 
 def _report_output_error(error: OutputError) -> int:
-    """Print why standard output cannot be written, and discard its buffer. Returns the exit code 2."""
+    """Print the reason why standard output cannot be written, and discard the remaining output. Return the exit code 2."""
     print(f"ros-lint: {error}", file=sys.stderr)
     _discard_output()
     return 2
@@ -56,9 +56,9 @@ def _discard_output() -> None:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command in ``argv`` (default: the arguments of this process). Returns the exit code.
+    """Run the command in ``argv`` (default: the arguments of this process). Return the exit code.
 
-    Errors are printed. Only SystemExit and exceptions that end the process are raised.
+    Errors are printed. Raises only SystemExit and other exceptions that must end the process.
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     if arguments == ["--version"]:

@@ -1,4 +1,4 @@
-"""The table of options, from which the command line, the settings, their JSON schema and their docs are generated."""
+"""The table of all options, from which the command line, the settings, the JSON schema and the docs are generated."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ MOST = 1_000_000
 
 
 class CliOption(NamedTuple):
-    """An option of the command line, a setting of configuration files, or both.
+    """An option of the command line, a setting in configuration files, or both.
 
-    The types ``words`` and ``paths`` have tuples as values. The type ``table`` maps patterns or rules to words; only files can
-    have it.
+    The value of the types ``words`` and ``paths`` is a tuple. The value of the type ``table`` maps patterns or rules to
+    words; such an option exists only in configuration files.
     """
 
     name: str
@@ -28,15 +28,18 @@ class CliOption(NamedTuple):
     on_command_line: bool = True
     in_file: bool = True
     environment: str = ""
-    """The environment variable that is read if neither the command line nor the file sets the option."""
+    """Environment variable that is read if neither the command line nor the configuration file sets the option; "" if none."""
     short: str = ""
     """Short form of the flag, such as "-q"; "" if there is none."""
     single: bool = False
-    """True if a file may set the type ``words`` to a string, too, which is a single word."""
+    """True if a configuration file may set an option of the type ``words`` to a string, which is a single word."""
     several: bool = False
-    """True if a flag of the type ``words`` takes several values, as the flags of colcon do."""
+    """True if the command-line option takes several arguments, as ``--packages-select a b`` of colcon does."""
     loads_code: bool = False
-    """True if the option loads code. Files cannot set it, because they can be part of the checked workspace."""
+    """True if the option makes ros-lint load code.
+
+    Configuration files cannot set it, because they may be in an untrusted workspace.
+    """
 
 
 OPTIONS: tuple[CliOption, ...] = (
@@ -159,7 +162,7 @@ BY_NAME = {option.name: option for option in OPTIONS}
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON schema of ``ros-lint.toml``, and of the table ``[tool.ros-lint]`` in pyproject.toml."""
+    """Return the JSON schema of ``ros-lint.toml`` and of the table ``[tool.ros-lint]`` in pyproject.toml."""
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "ros-lint settings",

@@ -1,4 +1,4 @@
-"""Print a report, and write it to files, in the formats that the options name."""
+"""Print a report, and write it to files, in the formats that the options select."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from ros_lint.reporters.ansi import Style
 
 _URL = re.compile(r"(?:https?|file)://[!#-'*-;=?-~]*\{rule\}[!#-'*-;=?-~]*")
-"""A URL with ``{rule}`` that needs no escapes in Markdown, HTML and terminals."""
+"""Pattern of a URL with ``{rule}`` whose characters need no escapes in Markdown, HTML and terminals."""
 
 
 def validate(settings: Settings) -> None:
-    """Raise UsageError for options of the output that contradict each other."""
+    """Raise UsageError if options of the output exclude each other, such as ``--statistics`` and ``--format json``."""
     if settings["statistics"] and settings["format"] != "text":
         raise UsageError("--statistics prints text; count the findings of --format json instead")
     if settings["diff"] and (settings["output"] or settings["format"] != "text"):
@@ -39,15 +39,15 @@ def validate(settings: Settings) -> None:
 
 
 def _files(settings: Settings) -> list[tuple[str, str]]:
-    """Return the format and the path of each file; the format is "" for a file that replaces standard output."""
+    """Return the format and the path of each file in ``--output``. The format is "" for a file that replaces standard output."""
     pairs = [(value.partition(":"), value) for value in settings["output"] if value]
     return [(form, path) if form in FORMATS and path else ("", value) for (form, _, path), value in pairs]
 
 
 def print_report(report: Report, request: Request) -> int:
-    """Write a report to the files of ``--output``, and print it unless one of them replaces standard output.
+    """Write a report to the files of ``--output``, and print it unless one of these files replaces standard output.
 
-    Returns 2 if a file cannot be written, else 0.
+    Return 2 if a file cannot be written, else 0.
     """
     settings = request.settings
     report = report._replace(rule_url=settings["rule-url"])
@@ -81,9 +81,10 @@ def _render(report: Report, request: Request, form: str, style: Style) -> bytes:
 
 
 def _relative_to_current_folder(base: str, report: Report, texts: SourceTexts) -> tuple[Report, SourceTexts]:
-    """Return the report and the texts of its files with paths relative to the current folder, for terminals and editors.
+    """Return a report and a look-up of source texts whose paths are relative to the current folder, for terminals and editors.
 
-    If neither the base nor the current folder contains the other, paths stay relative to the base.
+    If neither the base folder of the report nor the current folder contains the other, paths stay relative to the base
+    folder.
     """
     current = os.path.realpath(os.curdir)
     if current == base or os.path.commonpath((base, current)) not in (base, current):
@@ -108,7 +109,7 @@ def _reporter(form: str, settings: Settings) -> Reporter:
 
 
 def _style(settings: Settings, path: str = "") -> Style:
-    """Return the style of standard output, or of the file ``path``."""
+    """Return the output style for standard output, or for the file at ``path`` if it is not ""."""
     from ros_lint.reporters.ansi import Style  # noqa: PLC0415
 
     encoding = "utf-8" if path else (sys.stdout.encoding or "ascii")
@@ -122,12 +123,12 @@ def _style(settings: Settings, path: str = "") -> Style:
 
 
 def _shown_links(settings: Settings) -> str:
-    """Return the URL of rules if the terminal may show links."""
+    """Return the setting ``rule-url``, or "" if the terminal supports no links."""
     return str(settings["rule-url"]) if os.environ.get("TERM") != "dumb" else ""
 
 
 def _wants_color(settings: Settings, path: str) -> bool:
-    """Return whether to use colours: by the flag, NO_COLOR, FORCE_COLOR, or for a terminal, in this order."""
+    """Return whether to use colours. In this order: ``--color``, NO_COLOR, FORCE_COLOR, whether the output is a terminal."""
     if settings["color"] != "auto":
         return bool(settings["color"] == "always")
     if os.environ.get("NO_COLOR"):

@@ -1,4 +1,4 @@
-"""The progress line on the terminal of a long run."""
+"""Show the progress of a long run in one line of the terminal."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from collections.abc import Callable
 from typing import TextIO
 
 _DELAY = 0.5
-"""Seconds until the line is first shown, because most runs end before."""
+"""Seconds until the line is first shown, because most runs end earlier."""
 _INTERVAL = 0.1
 """Seconds between two updates of the line."""
 
 
 class Progress:
-    """Shows the progress of a long run on a terminal. As a context manager, it clears the line at the end.
+    """Shows the progress of a long run in one line of a terminal. As a context manager, it clears the line at the end.
 
-    Nothing is shown if ``wanted`` is False or the stream is not a terminal. ``clock`` returns the time in seconds.
+    The line is not shown if ``wanted`` is False or ``stream`` is not a terminal. ``clock`` returns the time in seconds.
     """
 
     def __init__(self, stream: TextIO, wanted: bool = True, clock: Callable[[], float] = time.monotonic) -> None:
@@ -33,7 +33,7 @@ class Progress:
         self.clear()
 
     def update(self, what: str, done: int, total: int) -> None:
-        """Show that ``done`` of ``total`` items of the step ``what`` are done; ``total`` is 0 if unknown."""
+        """Show that ``done`` of ``total`` items of the step ``what``, e.g. reading files, are done; ``total`` is 0 if unknown."""
         if (now := self._clock()) < self._next:
             return
         self._next = now + _INTERVAL
@@ -42,7 +42,7 @@ class Progress:
         self._shown = True
 
     def clear(self) -> None:
-        """Clear the line before other output is written."""
+        """Clear the line, so that other output can be written."""
         if self._shown:
             self._write("\r\x1b[K")
             self._shown = False

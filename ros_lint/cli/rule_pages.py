@@ -1,4 +1,4 @@
-"""Documentation of rules and options: lists of rules, the page of a rule and the table of options."""
+"""Documentation of rules and options as text, Markdown and JSON: lists of rules, the page of a rule, and a table of options."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ GROUPS = {
 
 
 def group(rule: Rule) -> str:
-    """Return the group that a rule belongs to: by the first digit of its code, or "Plugin" and the name of its plugin."""
+    """Return the group of a rule: a topic by the first digit of its code, or "Plugin" and the name of the rule's plugin."""
     plugin = plugin_of(rule.name)
     return f"Plugin {plugin}" if plugin else GROUPS[rule.code[3]]
 
 
 def listing(rules: Iterable[Rule]) -> str:
-    """Return a line for each rule: code, name, severity, on or off, whether it has fixes, and summary."""
+    """Return a line for each rule: code, name, severity, on or off by default, "fix" if it has fixes, and summary."""
     rules = list(rules)
     width = max((len(rule.name) for rule in rules), default=0)
     code_width = max((len(rule.code) for rule in rules), default=0)
@@ -39,7 +39,7 @@ def listing(rules: Iterable[Rule]) -> str:
 
 
 def page(rule: Rule, example: str = "") -> str:
-    """Return the page of a rule in Markdown. ``example`` is output of the rule, shown in the section "What it finds"."""
+    """Return the Markdown page of a rule. ``example`` is output of the rule that is added to the section "What it finds"."""
     facts = [
         f"{rule.severity!s}",
         "on by default" if rule.default else f"off by default (`--select {rule.name}` or `--pedantic`)",
@@ -58,7 +58,7 @@ _WHY = "## Why it matters\n"
 
 
 def overview(rules: Sequence[Rule]) -> str:
-    """Return the page that lists all rules in Markdown, with links to their pages."""
+    """Return a Markdown page that lists all rules of ros-lint, with links to their pages."""
     parts = ["# Rules\n\nGenerated from the rules and their cases by `pytest --bless`. `ros-lint rule NAME` prints a page.\n"]
     for digit, heading in GROUPS.items():
         in_group = [rule for rule in rules if rule.code[3] == digit]
@@ -81,7 +81,7 @@ def _fate(former: FormerRule) -> str:
 
 
 def settings(options: Iterable[CliOption]) -> str:
-    """Return a table of options in Markdown. Options that configuration files can set come first."""
+    """Return a Markdown table of options. Options that configuration files can set come first."""
     lines = ["| setting | command line | default | meaning |", "|---|---|---|---|"]
     for option in sorted(options, key=lambda option: not option.in_file):
         name = f"`{option.name}`" if option.in_file else ""

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 def selected_folders(
     settings: Settings, roots: Sequence[str], load: Callable[[], Sequence[Workspace]]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the folders to report findings of, and warnings.
+    """Return the folders whose findings are reported, and warnings.
 
-    The folders are those of the selected packages below ``roots``; ``roots`` themselves if no option selects packages. A
+    The folders are those of the selected packages below ``roots``; if no option selects packages, they are ``roots``. A
     package with an unusable manifest has unknown dependencies, so it is selected only if an option names it. ``load``
-    returns the workspace for each distribution, and is called only if an option selects packages. Raises UsageError for
-    unknown packages and if no package is selected.
+    returns the workspace once for each distribution; it is called only if an option selects packages. Raises UsageError
+    for an unknown package, and if no package is selected.
     """
     names = tuple(f"packages-{word}" for word in ("select", "up-to", "above", "select-regex", "skip"))
     if not any(settings[name] for name in names):

@@ -1,4 +1,4 @@
-"""Open a workspace: from the options of the command line to a loader."""
+"""Open a workspace: from the options of the command line to a loader of the workspace."""
 
 from __future__ import annotations
 
@@ -30,59 +30,59 @@ if TYPE_CHECKING:
 
 
 class UsageError(UserError):
-    """A request of the user that is invalid. The message names the problem and the remedy."""
+    """A request of the user is invalid. The message names the problem and a remedy."""
 
 
 class Request(NamedTuple):
-    """Validated options: which workspace to check with which settings. Nothing of the workspace is read yet."""
+    """The validated options: the workspace to check and the settings. No file of the workspace has been read yet."""
 
     settings: Settings
     base: str
-    """Absolute folder to which paths in the output are relative: the repository or the workspace."""
+    """Absolute folder to which paths in the output are relative: the root of the git repository, or else the workspace."""
     roots: tuple[str, ...]
-    """The requested folders, relative to the base: their packages are checked."""
+    """The requested folders, relative to ``base``. The packages in them are checked."""
     context: tuple[str, ...]
-    """Folders, relative to the base, whose other packages are read as well; () without context."""
+    """Folders, relative to ``base``, whose further packages are read as well; () if only the requested ones are read."""
     inside: tuple[str, ...]
-    """Absolute folders that links in the workspace may lead into: the repository, or the requested paths."""
+    """Absolute folders into which symbolic links in the workspace may lead: the repository, or the requested paths."""
     tracked: Tracked | None
-    """What git tracks, if other files are left out; None if all files are read."""
+    """The files that git tracks, if all other files are ignored; None if all files are read."""
     targets: tuple[TargetDistro, ...]
     """The distributions to check for, at least one."""
     places: tuple[str, ...]
-    """Folders with data about released packages that override the shipped data."""
+    """Folders with data about released packages, which override the shipped data."""
     cache: CacheFile
-    """The cached results of the workspace."""
+    """The file with cached results of the workspace."""
     warnings: tuple[str, ...]
     """Warnings about the settings."""
 
     @property
     def disk(self) -> DiskTree:
-        """Return the files of the workspace."""
+        """The files of the workspace on disk."""
         return TrackedTree(self.base, self.inside, self.tracked) if self.tracked else DiskTree(self.base, self.inside)
 
 
 class Session(NamedTuple):
-    """A loader for the requested workspace, with the data that a command needs."""
+    """A loader of the requested workspace, with the data that a command needs."""
 
     loader: Loader
     settings: Settings
     knowledge: Knowledge
-    """The data about the first distribution."""
+    """The data about released packages of the first distribution."""
     base: str
-    """As in :class:`Request`."""
+    """Absolute folder to which paths in the output are relative, as in :class:`Request`."""
     roots: tuple[str, ...]
-    """As in :class:`Request`."""
+    """The requested folders, relative to ``base``, as in :class:`Request`."""
     warnings: tuple[str, ...]
     cache: CacheFile
-    """As in :class:`Request`."""
+    """The file with cached results of the workspace, as in :class:`Request`."""
 
 
 def open_workspace(options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
-    """Return a session of one distribution for the workspace that the options name. The workspace is not loaded yet.
+    """Return a session for the requested workspace and one distribution. The workspace is not loaded yet.
 
-    If a configuration file lists several distributions, the session is of the first of them, and a warning names it.
-    ``options`` is the result of :func:`ros_lint.cli.arguments.parse`. ``progress`` is called with a step and two numbers, see
+    If a configuration file lists several distributions, the first one is used, with a warning. ``options`` is the result
+    of :func:`ros_lint.cli.arguments.parse`. ``progress`` is called with the name of a step and two numbers, see
     :meth:`ros_lint.cli.progress.Progress.update`. Raises UsageError, ConfigError and KnowledgeError.
     """
     request = parse_request(options, environment, with_context=False)
@@ -90,7 +90,7 @@ def open_workspace(options: Mapping[str, Any], environment: Mapping[str, str], p
 
 
 def _for_one_distro(request: Request) -> Request:
-    """Return the request for the first of its distributions. Raises UsageError if the command line names several."""
+    """Return the request for its first distribution only. Raises UsageError if the command line names several."""
     first, *others = request.targets
     if not others:
         return request
@@ -102,9 +102,9 @@ def _for_one_distro(request: Request) -> Request:
 
 
 def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *, with_context: bool = True) -> Request:
-    """Validate the options of the command line. Raises UsageError and ConfigError.
+    """Return the request that the options of the command line make. Raises UsageError and ConfigError.
 
-    Without ``with_context``, only the requested folders are read.
+    If ``with_context`` is False, only the requested folders are read, without the packages around them.
     """
     paths = list(dict.fromkeys(_requested_folder(written) for written in options.get("paths") or ["."]))
     places = (user_directory(environment),)
@@ -129,7 +129,10 @@ def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *,
 
 
 def _tracked(base: str, environment: Mapping[str, str]) -> Tracked | None:
-    """Return what git tracks in the repository at ``base`` if pre-commit runs, because a commit has no other files; else None."""
+    """Return the files that git tracks in the repository at ``base`` if pre-commit is running, else None.
+
+    pre-commit checks a commit, which has no other files.
+    """
     if environment.get("PRE_COMMIT") != "1" or repository_of(base) != base:
         return None
     from ros_lint.base.git_index import read_index  # noqa: PLC0415  (for pre-commit only)
@@ -138,7 +141,7 @@ def _tracked(base: str, environment: Mapping[str, str]) -> Tracked | None:
 
 
 def _requested_folder(written: str) -> str:
-    """Return the absolute folder to check for a path of the command line. Raises UsageError."""
+    """Return the absolute folder to check for a path on the command line. Raises UsageError if there is none."""
     path = os.path.realpath(written)
     if not os.path.exists(path):
         raise UsageError(f"{written}: no such file or directory{_command(written)}")
@@ -152,9 +155,10 @@ def _relative(paths: Iterable[str], base: str) -> tuple[str, ...]:
 
 
 def open_session(request: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Session:
-    """Return a session for a request. ``workspace`` and ``machine`` replace the trees on disk.
+    """Return a session for a request.
 
-    Raises UsageError and KnowledgeError.
+    ``workspace`` and ``machine`` replace the files of the workspace and of the machine on disk. Raises UsageError and
+    KnowledgeError.
     """
     # Not needed for a cached report.
     from ros_lint.workspace.cache.facts import FactCache  # noqa: PLC0415
@@ -187,17 +191,17 @@ _WITHOUT_EFFECT = frozenset((
     "baseline", "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress",
     "quiet", "rule-url", "show-settings", "since", "statistics", "unsafe-fixes", "write-baseline",
 ))  # fmt: skip
-"""Settings that do not affect the report. Of the configuration file only the contents do, not the path."""
+"""Settings that do not affect a report. Of ``config``, the path does not; the settings in the file are compared themselves."""
 
 
 _LIBRARIES = ("libcst", "networkx", "yaml")
-"""Libraries that read files of a workspace. A new version of a library invalidates the cache."""
+"""Libraries with which ros-lint reads files of a workspace. Another version of a library invalidates the cache of reports."""
 
 
 def report_cache(request: Request) -> ReportCache:
-    """Return the cache of the reports of a request.
+    """Return the cache of the reports for a request.
 
-    Nothing is cached if plugins are enabled, because a change in the files of plugins would not be noticed.
+    If plugins are enabled, reports are not cached, because a change in the files of a plugin would not be noticed.
     """
     settings = request.settings
     if not request.cache or settings["plugins"]:
@@ -219,9 +223,9 @@ def report_cache(request: Request) -> ReportCache:
 
 
 def _underlays(settings: Settings, distro: str, base: str, machine: Tree | None) -> tuple[tuple[Underlay, ...], tuple[str, ...]]:
-    """Return the underlays and warnings. An invalid prefix from the environment causes a warning only.
+    """Return the underlays and warnings. An invalid prefix in AMENT_PREFIX_PATH results only in a warning.
 
-    Raises UsageError for an invalid prefix from the command line or the configuration file.
+    Raises UsageError for an invalid prefix on the command line or in the configuration file.
     """
     prefixes = [prefix for prefix in settings["underlay"] if prefix]
     if not prefixes:
@@ -244,7 +248,7 @@ def _underlays(settings: Settings, distro: str, base: str, machine: Tree | None)
 
 
 def no_packages(request: Request | Session) -> str:
-    """Return the message for a workspace without packages, with the folders that were skipped."""
+    """Return the error message for a workspace without packages. It lists the folders that were skipped."""
     from ros_lint.workspace.discovery.discover import discover  # noqa: PLC0415  (not needed for a cached report)
 
     places = ", ".join(root or request.base for root in request.roots)
@@ -262,21 +266,24 @@ _MOST_SKIPPED = 3
 
 
 def _command(written: str) -> str:
-    """Return the suggestion of a command for a path that does not exist: "; did you mean the command 'why'?", or ""."""
+    """Return the suggestion of a command for a path that does not exist: "; did you mean the command 'why'?"; "" if none fits."""
     return next((f"; did you mean the command '{command}'?" for command in similar_names(written, COMMANDS)), "")
 
 
 def _base(paths: Sequence[str]) -> str:
-    """Return the root of the repository that contains the paths, or else their common folder.
+    """Return the root of the git repository that contains the paths, or else the deepest folder that contains all of them.
 
-    Paths in the output are relative to the repository, as code review shows them, wherever ros-lint is called.
+    Paths in the output are relative to the repository, as in code review, in whatever folder ros-lint is called.
     """
     common = os.path.commonpath(paths)
     return repository_of(common) or common
 
 
 def _targets(settings: Settings, places: Sequence[str]) -> tuple[tuple[TargetDistro, ...], tuple[str, ...]]:
-    """Return the distributions to check for, and warnings. Raises UsageError for an unknown distribution."""
+    """Return the distributions to check for, and warnings.
+
+    Raises UsageError for an unknown distribution that was not set by ROS_DISTRO.
+    """
     names = list(dict.fromkeys(name for name in settings["distro"] if name))
     origin = settings.origin("distro")
     if not names:

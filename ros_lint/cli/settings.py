@@ -1,7 +1,7 @@
-"""Settings with their origins. Precedence: the command line, the configuration file, the environment, the defaults.
+"""Read the settings and record their origins. Precedence: command line, configuration file, environment, defaults.
 
-The file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the workspace
-folder or above it.
+The configuration file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the
+workspace folder or a folder above it.
 """
 
 from __future__ import annotations
@@ -22,18 +22,21 @@ _MOST_BYTES = 256 << 10
 """Size limit of a configuration file, much larger than any real one."""
 
 _MOST_SEARCHED = 16 << 20
-"""Number of bytes of a pyproject.toml that are searched for the table of ros-lint."""
+"""Number of bytes of a pyproject.toml in which the table ``[tool.ros-lint]`` is searched for."""
 
 _LONG_KEY = r"""(?:\.[ \t]*(?:[\w-]+|"(?:[^"\\\n]|\\.){0,50}"|'[^'\n]{0,50}')[ \t]*){50}"""
-"""Pattern of a key with more than 50 parts, without the first. tomllib takes time with the square of their number."""
+"""Pattern of the rest of a TOML key with more than 50 parts, after its first part.
+
+Such a key is rejected, because tomllib takes time proportional to the square of the number of parts.
+"""
 
 
 class ConfigError(UserError):
-    """Invalid settings. The message names the place and the remedy."""
+    """A setting is invalid. The message names its place and a remedy."""
 
 
 class Setting(NamedTuple):
-    """The value of an option and its origin."""
+    """The value of an option and the origin of the value, such as "--distro" or the path of the configuration file."""
 
     value: Any
     origin: str
@@ -42,7 +45,7 @@ class Setting(NamedTuple):
 class Settings:
     """The values of all options with their origins: ``settings["fail-on"]``, ``settings.origin("fail-on")``.
 
-    ``warnings`` are messages about settings of the file that have no effect.
+    ``warnings`` are messages about settings in the configuration file that have no effect.
     """
 
     def __init__(self, values: Mapping[str, Setting], warnings: tuple[str, ...] = ()) -> None:
@@ -53,11 +56,11 @@ class Settings:
         return self._values[name].value
 
     def origin(self, name: str) -> str:
-        """Return the origin of a value: a flag, a file with its path, an environment variable, or "default"."""
+        """Return the origin of an option's value: a command-line option, the path of a file, a variable, or "default"."""
         return self._values[name].origin
 
     def show(self) -> str:
-        """Return one line for each option, for ``--show-settings``."""
+        """Return the output of ``--show-settings``: one line for each option with its value and origin."""
         width = max(len(name) for name in self._values)
         return "".join(f"{name:{width}} = {toml(setting.value)}  # {setting.origin}\n" for name, setting in self._values.items())
 
@@ -65,9 +68,9 @@ class Settings:
 def settle(arguments: Mapping[str, Any], start: str, environment: Mapping[str, str], display: str = "") -> Settings:
     """Return the settings of a run. Raises ConfigError.
 
-    ``arguments`` has the values of the command line by option name. ``start`` is the absolute path of the workspace, from
-    which the configuration file is searched upwards. Of ``environment`` only the variables in the table of options are
-    read. ``display`` is the folder to which the path of the file is relative in origins.
+    ``arguments`` has the values on the command line by option name. ``start`` is the absolute path of the workspace; the
+    configuration file is searched for in this folder and above. Of ``environment`` only the variables in the table of
+    options are read. In origins, the path of the file is relative to the folder ``display``.
     """
     isolated = bool(arguments.get("isolated"))
     path = "" if isolated else str(arguments.get("config") or "") or find(start)
@@ -89,7 +92,7 @@ def settle(arguments: Mapping[str, Any], start: str, environment: Mapping[str, s
 
 
 def find(start: str) -> str:
-    """Return the path of the nearest configuration file in ``start`` or above it, or ""."""
+    """Return the path of the nearest configuration file in ``start`` or above it, "" if there is none."""
     folder = os.path.abspath(start)
     if not os.path.isdir(folder):
         folder = os.path.dirname(folder)
@@ -104,7 +107,7 @@ def find(start: str) -> str:
 
 
 def read(path: str) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Return the validated settings of a file, and warnings. Raises ConfigError."""
+    """Return the validated settings in the configuration file ``path``, and warnings. Raises ConfigError."""
     try:
         data = files.read(path, _MOST_BYTES)
     except OSError as error:
@@ -125,7 +128,7 @@ def _without_effect(path: str, text: str, name: str) -> str:
 
 
 def _has_table(path: str) -> bool:
-    """Return whether a pyproject.toml has a table [tool.ros-lint], without parsing it, because it may be invalid or large."""
+    """Return whether a pyproject.toml has a table [tool.ros-lint]. It is not parsed, because it may be invalid or large."""
     try:
         with open(path, "rb") as file:
             head = file.read(_MOST_SEARCHED)
@@ -210,7 +213,7 @@ def _place(path: str, text: str, name: str) -> str:
 
 
 def _relative(option: CliOption, value: Any, path: str) -> Any:
-    """Return the value of an option; a path is joined to the folder of ``path``, the configuration file that has the value."""
+    """Return a value in the configuration file ``path``. A relative path becomes relative to the folder of the file."""
     if option.type == "paths":
         return tuple(os.path.join(os.path.dirname(path), entry) for entry in value)
     return os.path.join(os.path.dirname(path), value) if option.type == "path" else value
@@ -223,7 +226,7 @@ def _from_environment(option: CliOption, value: str) -> Any:
 
 
 def toml(value: Any) -> str:
-    """Return the value of an option in TOML syntax."""
+    """Return the value of an option in TOML syntax, e.g. "[]" or "true"."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, tuple | list):

@@ -1,4 +1,4 @@
-"""The option ``--since``: hide the findings that an earlier commit has as well."""
+"""The option ``--since``: hide the findings that an earlier commit has, too."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 
 def only_new(report: Report, request: Request, environment: Mapping[str, str], progress: Progress) -> Report:
-    """Return a report without the findings of the merge base: the commit from which HEAD and ``--since`` diverged.
+    """Return a report without the findings that the commit from which HEAD and ``--since`` diverged has, too.
 
-    The files of this commit are written into a temporary folder and checked with the same settings. Findings are compared as
-    for a baseline. Raises UsageError and GitError.
+    The files of this commit are written into a temporary folder and checked with the same settings. Findings are compared
+    as with a baseline. Raises UsageError and GitError.
     """
     ref = request.settings["since"]
     if repository_of(request.base) != request.base:
@@ -43,7 +43,7 @@ def only_new(report: Report, request: Request, environment: Mapping[str, str], p
 
 
 def _in_folder(request: Request, folder: str) -> Request:
-    """Return the request for the files of a commit in ``folder``, without cache. Requested folders that it lacks are left out."""
+    """Return the request for the files of a commit in ``folder``, without cache and without folders that do not exist."""
 
     def existing(paths: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(path for path in paths if os.path.isdir(os.path.join(folder, path)))

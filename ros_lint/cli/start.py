@@ -10,7 +10,7 @@ import sys
 
 
 def run() -> None:
-    """Run the command of this process and exit."""
+    """Remove the current folder from the module path, run the command of this process, and exit."""
     leave_current_folder()
     from ros_lint.cli import main as cli  # noqa: PLC0415  (its imports must not come from the current folder)
 
@@ -18,9 +18,9 @@ def run() -> None:
 
 
 def leave_current_folder() -> None:
-    """Remove the current folder from the module path, also for child processes.
+    """Remove the current folder from the module path (``sys.path``) of this process and its child processes.
 
-    If ros-lint itself is in the current folder, the folder becomes the last entry.
+    If ros-lint itself is in the current folder, the folder becomes the last entry instead.
     """
     try:
         current = os.path.realpath(os.curdir)
@@ -36,5 +36,8 @@ def leave_current_folder() -> None:
 
 
 def _without(folder: str, path: list[str]) -> list[str]:
-    """Return the entries of a module path except for ``folder``. An empty entry means the current folder."""
+    """Return the entries of a module path without those for ``folder``.
+
+    Empty entries, which mean the current folder, are removed, too.
+    """
     return [entry for entry in path if entry and os.path.realpath(entry) != folder]

@@ -1,4 +1,4 @@
-"""Standard output and standard error of the process: in any encoding, on a full disk, or closed."""
+"""Make standard output and standard error usable: in any encoding, on a full disk, or closed."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 
 
 class OutputError(Exception):
-    """Standard output cannot be written. The message has the reason."""
+    """Standard output cannot be written. The message contains the reason."""
 
 
 class _Output(io.RawIOBase):
-    """Standard output that raises OutputError, because an OSError does not show which file failed."""
+    """A stream for standard output that raises OutputError, because an OSError does not tell which file failed."""
 
     def __init__(self, raw: io.RawIOBase) -> None:
         self._raw = raw
@@ -42,7 +42,7 @@ class _Output(io.RawIOBase):
 
 
 def prepare() -> None:
-    """Replace the standard streams by streams that can always be written to, or that raise OutputError.
+    """Replace the standard streams by streams that accept every text, or raise OutputError if standard output fails.
 
     Characters that standard output cannot encode are written as escapes. Text for a closed standard error is dropped.
     """
@@ -61,4 +61,4 @@ def prepare() -> None:
 
 
 _DESCRIPTOR = 1
-"""The file descriptor of standard output."""
+"""File descriptor of standard output."""

@@ -1,4 +1,4 @@
-"""``ros-lint cache``: show or remove the results of earlier runs."""
+"""``ros-lint cache``: show or remove the cached results of earlier runs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ros_lint.workspace.cache.folder import MOST_BYTES, CachedWorkspace, cached_
 
 
 def run(options: Mapping[str, Any]) -> int:
-    """Run the command with its options. Returns the exit code: 2 if the cache cannot be read or changed."""
+    """Run ``ros-lint cache`` with its options. Return the exit code: 2 if the cache cannot be read or changed, else 0."""
     place = folder(os.environ)
     if not place:
         print("ros-lint: there is no cache folder, because neither XDG_CACHE_HOME nor HOME is set", file=sys.stderr)
@@ -33,7 +33,7 @@ def run(options: Mapping[str, Any]) -> int:
 
 
 def _selector(paths: Sequence[str]) -> Callable[[CachedWorkspace], bool]:
-    """Return a function that returns whether a workspace is in one of the paths; any file counts if there are none."""
+    """Return a function that returns whether a cached workspace is in one of the paths; without paths, it is always True."""
     real_paths = [os.path.realpath(path) for path in paths]
     return lambda cached: not paths or (cached.workspace != "" and is_below_any(cached.workspace, real_paths))
 
@@ -43,7 +43,7 @@ def _removed_text(removed: Sequence[CachedWorkspace]) -> str:
 
 
 def _text(place: str, cached: Sequence[CachedWorkspace]) -> str:
-    """Return the folder and a line for each workspace: path, size, date of the last use, and whether it is gone."""
+    """Return the cache folder and a line for each workspace: path, size, date of the last use, and "gone" if it is missing."""
     style = Style()
     names = [safe(workspace.workspace, style) or f"unreadable file {os.path.basename(workspace.file)}" for workspace in cached]
     width = max(map(len, names), default=0)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 def run(options: Mapping[str, Any]) -> int:
-    """Check the requested workspace and print the findings. Returns the exit code."""
+    """Check the requested workspace and print the findings. Return the exit code: 0, 1 or 2, see :func:`exit_code`."""
     if options.get("version"):
         print(f"ros-lint {__version__}")
         return 0
@@ -73,7 +73,7 @@ def _warn(warnings: Iterable[str]) -> None:
 
 
 def _baseline(settings: Settings) -> Baseline | None:
-    """Return the baseline to apply; None if no file is set, or if the file is to be written.
+    """Return the known findings to hide; None if the settings name no baseline file, or if the file is to be written.
 
     Raises BaselineError, and UsageError for conflicting options.
     """
@@ -90,7 +90,7 @@ def _baseline(settings: Settings) -> Baseline | None:
 
 
 def _write_baseline(report: Report, request: Request) -> int:
-    """Write the findings to the baseline, unless the run failed. Returns the exit code. Raises BaselineError."""
+    """Write the findings to the baseline file, unless the run failed. Return the exit code. Raises BaselineError."""
     from ros_lint.engine import baseline  # noqa: PLC0415
 
     path = request.settings["baseline"]
@@ -105,13 +105,13 @@ def _write_baseline(report: Report, request: Request) -> int:
 
 
 def _folders(request: Request, path: str) -> list[str]:
-    """Return the requested paths, relative to the folder of the file ``path``."""
+    """Return the requested paths, relative to the folder of the file at ``path``."""
     folder = os.path.dirname(os.path.realpath(path))
     return [os.path.relpath(os.path.join(request.base, root), folder).replace(os.sep, "/") for root in request.roots]
 
 
 def _single_package_warning(request: Request) -> Iterator[str]:
-    """Yield a warning if a single package of a workspace is checked and no workspace around it is recognized."""
+    """Yield a warning if a single package of a larger workspace is checked and this workspace was not recognized."""
     if request.context or not request.settings["context"]:
         return
     root = os.path.join(request.base, request.roots[0]) if request.roots[0] else request.base
@@ -127,7 +127,7 @@ def _single_package_warning(request: Request) -> Iterator[str]:
 
 
 def _report(request: Request, progress: Progress) -> Report:
-    """Return the report of a run: the cached report if its inputs are unchanged, else a new report."""
+    """Return the report of a run: the cached report if its inputs are unchanged, otherwise a new report."""
     cache = report_cache(request)
     disks = request.disk, MachineTree()
     recorded = [RecordedTree(disk) for disk in disks]
@@ -145,7 +145,7 @@ def _report(request: Request, progress: Progress) -> Report:
 
 
 def exit_code(report: Report, fail_on: str) -> int:
-    """Return 2 if no package was found or a rule crashed, 1 for findings at or above ``fail_on``, else 0.
+    """Return the exit code: 2 if no package was found or a rule crashed, 1 for findings at or above ``fail_on``, else 0.
 
     ``fail_on`` is a severity or "never".
     """

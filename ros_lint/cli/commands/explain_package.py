@@ -1,4 +1,4 @@
-"""``ros-lint explain-package P``: the names that a package declares, uses, provides and installs."""
+"""``ros-lint explain-package P``: print the names that package P declares, uses, provides and installs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MOST_PLACES = 2
 
 
 class _Row(NamedTuple):
-    """A line of a section: a name, a remark and a place."""
+    """A line of a section of the output: a name, a remark and a place."""
 
     name: str
     note: str
@@ -27,9 +27,9 @@ class _Row(NamedTuple):
 
 
 def run(workspace: Workspace, name: str, form: str = "text") -> tuple[str, str, int]:
-    """Return standard output, standard error and the exit code.
+    """Return standard output, standard error and the exit code, which is 2 if the workspace has no package ``name``, else 0.
 
-    ``form`` is ``text`` or ``json``. The code is 2 if the workspace has no package of that name, otherwise 0.
+    ``form`` is the output format, "text" or "json".
     """
     packages = workspace.called(name)
     if not packages:
@@ -40,7 +40,7 @@ def run(workspace: Workspace, name: str, form: str = "text") -> tuple[str, str, 
 
 
 _HEADINGS = {"cannot be seen through": "could not be analysed"}
-"""Headings of the text that differ from the keys of the JSON."""
+"""Headings in the text format, for keys of the JSON format with other words."""
 
 
 def _text(package: Package) -> str:
@@ -57,7 +57,7 @@ def _text(package: Package) -> str:
 
 
 def _sections(package: Package, most: int) -> Iterator[tuple[str, list[_Row]]]:
-    """Yield the title and rows of each section. The uses of every other package are limited to ``most`` rows."""
+    """Yield the title and the rows of each section. For each used package, at most ``most`` uses are listed."""
     yield "declares", list(_declares(package))
     yield "uses", list(_uses(package, most))
     yield "provides", list(dict.fromkeys(_provides(package)))  # a script can be evaluated twice, in two folders
@@ -74,7 +74,7 @@ def _declares(package: Package) -> Iterator[_Row]:
 
 
 def _uses(package: Package, most: int) -> Iterator[_Row]:
-    """Yield the first ``most`` uses of every other package, and a row with the number of further uses."""
+    """Yield a row for each of the first ``most`` uses of every used package, and a row with the number of further uses."""
     places: dict[str, list[_Row]] = {}
     for use in package.uses:
         note = f"{use.what} ({_roles(use.role)}{', optional' if use.optional else ''})"

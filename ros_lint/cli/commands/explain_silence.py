@@ -1,4 +1,4 @@
-"""``ros-lint why A B --explain-silence``: why the dependency rules report nothing about A and B."""
+"""``ros-lint why A B --explain-silence``: explain why the dependency rules report nothing about the dependency of A on B."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 def run(workspace: Workspace, name: str, dependency: str) -> tuple[str, str, int]:
-    """Return standard output, standard error and the exit code: 0, or 2 if the workspace has no package ``name``.
+    """Return standard output, standard error and the exit code: 2 if the workspace has no package ``name``, else 0.
 
-    ``dependency`` is a package or a rosdep key.
+    ``dependency`` is the name of a package or a rosdep key.
     """
     packages = workspace.called(name)
     if not packages:
@@ -30,13 +30,13 @@ def run(workspace: Workspace, name: str, dependency: str) -> tuple[str, str, int
 
 
 def _issues(package: Package, workspace: Workspace) -> list[Issue]:
-    """Return the findings in a package of the rules that the command explains (``RULES``)."""
+    """Return the findings of the rules in ``RULES``, which this command explains, in a package."""
     rules = [rule for rule in registry.load() if rule.name in RULES and rule.package is not None]
     return [Issue(rule, package.name, finding) for rule in rules if rule.package for finding in rule.package(package, workspace)]
 
 
 def _reported(issues: Iterable[Issue], name: str) -> Mapping[str, Confidence]:
-    """Return the names of the rules that report a dependency, with the highest confidence of each."""
+    """Return the names of the rules that report the dependency ``name``, each with the highest confidence of its findings."""
     result: dict[str, Confidence] = {}
     for issue in issues:
         if issue.finding.subject == name:
@@ -45,7 +45,7 @@ def _reported(issues: Iterable[Issue], name: str) -> Mapping[str, Confidence]:
 
 
 def _causes(issues: Sequence[Issue], name: str) -> Iterator[str]:
-    """Yield a line for each finding about the dependency ``name`` that is hidden, because a shown finding explains it."""
+    """Yield a line for each finding about the dependency ``name`` that is hidden as a consequence of another finding."""
     for issue in without_explained(issues):
         for explained in issue.explained:
             if explained.subject == name:

@@ -1,4 +1,4 @@
-"""``ros-lint --fix`` and ``--diff``: write the verified fixes, or print them as a patch."""
+"""``ros-lint --fix`` and ``--diff``: write the fixes that passed their trials, or print them as a patch."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 
 def run(session: Session) -> tuple[Report, int]:
-    """Print the fixes as a patch (--diff) or write them (--fix).
+    """Write the fixes (``--fix``) or print them as a patch (``--diff``).
 
-    Return the report of the remaining findings, and 2 if a file could not be written, else 0.
+    Return the report of the remaining findings, and the exit code: 2 if a file could not be written, else 0.
     """
     gc.enable()  # the workspace is loaded several times, and the memory of a trial has to be freed
     settings = session.settings

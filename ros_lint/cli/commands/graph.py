@@ -1,14 +1,14 @@
-"""``ros-lint graph``: print the dependency graph, for people or for programs.
+"""``ros-lint graph``: print the dependency graph of a workspace, as a drawing or as JSON.
 
-The JSON has ``schema_version`` 1 and, in the order of names:
+The JSON has ``schema_version`` 1 and the following lists, sorted by name:
 
-- ``packages``: ``name``; ``places``, each with ``path`` (relative, "." for the base) and ``type`` as colcon prints it, none for
-  a package outside of the workspace;
-  and with ``--metrics`` also ``metrics`` as in :class:`ros_lint.analysis.graph.metrics.Metrics`, where ``redundant`` lists longer
-  paths.
-- ``edges``: ``from`` depends on ``to``; ``test_only``; ``certain``, false if it depends on an unknown condition;
+- ``packages``: ``name``; ``places``, each with ``path`` (relative, "." for the base folder) and ``type``, the build type
+  as colcon prints it. A package outside of the workspace has no places. With ``--metrics`` also ``metrics``, as in
+  :class:`ros_lint.analysis.graph.metrics.Metrics`; its ``redundant`` lists the indirect paths.
+- ``edges``: ``from`` depends on ``to``; ``test_only``; ``certain``, false if the edge depends on an unknown condition;
   ``reasons``, each with ``tag``, ``categories`` (build, run, test, group), ``path``, ``line`` and ``column``.
-- ``cycles``: the ``packages``, a shortest ``cycle``, the ``cut`` as pairs, and ``certain``.
+- ``cycles``: the ``packages``, a shortest ``cycle``, the ``cut`` (edges whose removal breaks the cycle) as pairs, and
+  ``certain``.
 """
 
 from __future__ import annotations
@@ -38,8 +38,9 @@ def run(
 ) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code, which is 0.
 
-    With ``metrics``, the JSON contains the metrics and the graph; in the other formats, a table of the metrics replaces
-    the graph. ``title`` is the title of the page. Raises UsageError if the focus is not a package of the graph.
+    If ``metrics`` is True, the JSON contains the metrics and the graph; in the other formats, a table of the metrics
+    replaces the graph. ``title`` is the title of the HTML page. Raises UsageError if the focus is not a package of the
+    graph.
     """
     graph = part_of_graph(workspace, options)
     figures = _measure(graph) if metrics else {}

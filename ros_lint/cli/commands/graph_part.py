@@ -1,4 +1,4 @@
-"""The part of the dependency graph that the options of ``ros-lint graph`` choose, and what drawings show of an edge."""
+"""Select the part of the dependency graph that the options of ``ros-lint graph`` request, and classify its edges."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Workspace
 
 KINDS = ("build", "run", "test", "group")
-"""The phases for which a package depends on another, and "group" for members of a group."""
+"""Kinds of edges: the phases for which a package depends on another, and "group" for members of a dependency group."""
 
 _Needs = dict[str, dict[str, list[Reason]]]
 
 
 class GraphOptions(NamedTuple):
-    """The packages and edges that are left of the dependency graph."""
+    """The options of ``ros-lint graph`` that select packages and edges of the dependency graph."""
 
     focus: str = ""
-    """Name of a package: only this package, its dependencies and its dependents are left; "" leaves all packages."""
+    """Name of a package: only this package, its dependencies and its dependents are shown; "" shows all packages."""
     depth: int = 0
-    """Largest number of edges between the focus and another package; 0 is no limit."""
+    """Maximum number of edges between the package ``focus`` and another package; 0 means no limit."""
     external: bool = False
-    """True to add the packages and rosdep keys outside of the workspace."""
+    """True to show packages and rosdep keys outside of the workspace, too."""
     kinds: tuple[str, ...] = KINDS
-    """The kinds of edges that are left."""
+    """The kinds of edges to show."""
     reduce: bool = False
-    """True to leave out edges that longer paths imply."""
+    """True to leave out an edge if a longer path connects the same packages."""
 
 
 def part_of_graph(workspace: Workspace, options: GraphOptions) -> Graph:
-    """Return the chosen part of the dependency graph. Packages outside of the workspace have no places.
+    """Return the part of the dependency graph that the options select. Packages outside of the workspace have no places.
 
     Raises UsageError if the focus is not a package of the graph.
     """
@@ -69,7 +69,7 @@ def part_of_graph(workspace: Workspace, options: GraphOptions) -> Graph:
 
 
 def implied_edges(graph: Graph) -> frozenset[Edge]:
-    """Return the edges that longer paths imply. Edges within a cycle are never among them."""
+    """Return the edges that are implied by a longer path between the same packages. Edges within a cycle are not returned."""
     return frozenset((path[0], path[-1]) for metrics in measure(graph).values() for path in metrics.redundant)
 
 
@@ -80,12 +80,12 @@ def edges_in_cycles(graph: Graph) -> frozenset[Edge]:
 
 
 def is_test_only(graph: Graph, edge: Edge) -> bool:
-    """Return whether an edge is only needed for tests."""
+    """Return whether an edge exists only because of test dependencies."""
     return all(reason.categories == ("test",) for reason in graph.reasons(edge))
 
 
 def _graph(graph: Graph, needs: _Needs, names: Collection[str]) -> Graph:
-    """Return the graph of ``names``, with the places of ``graph`` and the dependencies ``needs``."""
+    """Return a graph of the packages ``names``, with their dependencies from ``needs`` and their places from ``graph``."""
     return Graph(
         {name: graph.places.get(name, ()) for name in names},
         {name: {end: reasons for end, reasons in needs[name].items() if end in names} for name in names},
@@ -93,7 +93,7 @@ def _graph(graph: Graph, needs: _Needs, names: Collection[str]) -> Graph:
 
 
 def _add_external(workspace: Workspace, needs: _Needs, kinds: Collection[str]) -> None:
-    """Add the dependencies on packages and rosdep keys outside of the workspace."""
+    """Add the dependencies on packages and rosdep keys outside of the workspace to ``needs``."""
     own = frozenset(needs)
     for package in workspace.packages:
         for declared in package.declared:
@@ -105,7 +105,10 @@ def _add_external(workspace: Workspace, needs: _Needs, kinds: Collection[str]) -
 
 
 def _near(graph: Graph, focus: str, depth: int) -> frozenset[str]:
-    """Return the focus, and its direct and indirect dependencies and dependents within ``depth`` edges. Raises UsageError."""
+    """Return the package ``focus``, and its direct and indirect dependencies and dependents within ``depth`` edges.
+
+    A depth of 0 means no limit. Raises UsageError if the graph has no such package.
+    """
     if focus not in graph.places:
         hint = did_you_mean(similar_names(focus, graph.names))
         raise UsageError(f"--focus: there is no package '{focus}' in the graph{hint}")

@@ -1,4 +1,4 @@
-"""The commands ``order``, ``why``, ``graph``, ``overlay`` and ``explain-package``."""
+"""Run the commands ``order``, ``why``, ``graph``, ``overlay`` and ``explain-package``."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ _COMMANDS: Mapping[str, Callable[[Workspace, Mapping[str, Any]], CommandOutput]]
 }
 
 _WITH_SOURCES = ("explain-package", "why")
-"""Commands that need the sources; the others need only the manifests."""
+"""Commands for which the sources of the workspace are read; for the others only manifests are read."""
 
 
 def run(command: str, options: Mapping[str, Any]) -> int:
-    """Run ``command``, one of the commands of this module, print its output and return the exit code."""
+    """Run one of the commands of this module, print its output and return the exit code."""
 
     def answer(session: Session, workspace: Workspace) -> CommandOutput:
         out, err, code = _COMMANDS[command](workspace, options)

@@ -1,4 +1,4 @@
-"""``ros-lint index``: rebuild the data about released packages, or create data about installed packages."""
+"""``ros-lint index``: rebuild the data about released packages, or create such data from installed packages."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class Refreshed(NamedTuple):
-    """A data file that was written, with the numbers of changed lines."""
+    """A data file that was written, with its number of lines and the numbers of added, removed and changed lines."""
 
     path: str
     lines: int
@@ -34,7 +34,7 @@ class Refreshed(NamedTuple):
 
 
 def run(options: Mapping[str, Any]) -> int:
-    """Run the command with its options. Returns the exit code: 2 if something could not be read."""
+    """Run ``ros-lint index`` with its options. Return the exit code: 2 if a file cannot be read or written, else 0."""
     try:
         if options["action"] == "refresh":
             to = options["to"] or user_directory(os.environ)
@@ -54,12 +54,12 @@ def run(options: Mapping[str, Any]) -> int:
 def refresh(
     source: str, distros: Sequence[str], to: str, rosdep_files: Sequence[str] = (), date: str = ""
 ) -> tuple[Refreshed, ...]:
-    """Write the ``.idx`` files of distributions, and ``rosdep.tsv`` if ``rosdep_files`` are given. Return the changes.
+    """Write the ``.idx`` files of distributions, and ``rosdep.tsv`` if ``rosdep_files`` are given. Return the written files.
 
-    ``source`` (the ``index-v4.yaml`` of rosdistro) and ``rosdep_files`` are paths or URLs. Without ``distros``, all
-    active ROS 2 distributions are written. ``to`` is a folder. ``date`` is the date of the data, by default today.
-    Everything is read before anything is written. Raises KnowledgeError if something cannot be read, and OSError if it
-    cannot be written.
+    ``source`` (the ``index-v4.yaml`` of rosdistro) and ``rosdep_files`` are paths or URLs. If ``distros`` is empty, all
+    active ROS 2 distributions are written. ``to`` is the output folder. ``date`` is the date of the data, by default
+    today. All inputs are read before a file is written. Raises KnowledgeError if an input cannot be read, and OSError if
+    a file cannot be written.
     """
     date = date or _today()
     available = rosdistro.sources(source)
@@ -76,9 +76,10 @@ def refresh(
 
 
 def scan(prefixes: Sequence[str], distro: str, date: str = "") -> tuple[str, str]:
-    """Return the contents of an ``.idx`` and a ``.prov`` file for the packages in install prefixes.
+    """Return the contents of an ``.idx`` and a ``.prov`` data file for the packages in install prefixes.
 
-    If several prefixes have a package, the first one counts. Raises UnderlayError for a folder that is not a prefix.
+    If several prefixes have a package, the first one counts. Raises UnderlayError for a folder that is not an install
+    prefix.
     """
     result: dict[str, Installed] = {}
     for layer in underlays.read(prefixes, distro):
@@ -117,9 +118,10 @@ def _write_scan(distro: str, to: str, idx: str, prov: str) -> None:
 
 
 def _replace(folder: str, name: str, text: str, *, shipped: bool = True) -> Refreshed:
-    """Write a data file atomically, so that it is never read incomplete. Return the numbers of changed lines.
+    """Write a data file atomically, so that no process reads an incomplete file. Return the numbers of changed lines.
 
-    A new file is compared with the shipped data if ``shipped`` is true, because it overrides them.
+    If ``shipped`` is True, a file that does not exist yet is compared with the shipped data file, because it overrides
+    that file.
     """
     path = os.path.join(folder, name)
     try:

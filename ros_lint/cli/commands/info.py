@@ -1,4 +1,4 @@
-"""The commands ``rules``, ``rule``, ``schema`` and ``completion``: information about ros-lint."""
+"""Run the commands ``rules``, ``rule``, ``schema`` and ``completion``, which print information about ros-lint."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ros_lint.errors import UserError
 
 
 def run(command: str, options: Mapping[str, Any]) -> int:
-    """Print the requested information and return the exit code."""
+    """Run ``command``, print its output and return the exit code."""
     match command:
         case "rules" | "rule":
             return _rules(options)
@@ -28,7 +28,7 @@ def run(command: str, options: Mapping[str, Any]) -> int:
 
 
 def _rules(options: Mapping[str, Any]) -> int:
-    """Print all rules, or the one that the options name. Returns the exit code."""
+    """Print all rules, or the rule in the option ``rule``. Return the exit code: 2 if there is no such rule, else 0."""
     name: str | None = options.get("rule")
     try:
         rules = registry.load(options.get("plugins", False))

@@ -1,4 +1,4 @@
-"""``ros-lint new-rule NAME``: write a plugin with one rule, its cases and its tests into a new folder."""
+"""``ros-lint new-rule NAME``: write a plugin with one rule, its test cases and its tests into a new folder."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ _TEMPLATES = os.path.join(os.path.dirname(os.path.dirname(__file__)), "templates
 
 
 class NewRuleError(UserError):
-    """An invalid name or code, or a folder that cannot be written."""
+    """The name or code of the new rule is invalid, or its folder cannot be written."""
 
 
 def run(options: Mapping[str, Any]) -> int:
-    """Write the plugin, and print its folder and how to test it. Returns the exit code."""
+    """Write the plugin, and print its folder and the command that tests it. Return the exit code: 0, or 2 after an error."""
     name = str(options["name"])
     try:
         code = str(options.get("code") or code_for(name))
@@ -41,12 +41,15 @@ def run(options: Mapping[str, Any]) -> int:
 
 
 def code_for(name: str) -> str:
-    """Return the first code of the plugin of a rule: the letters of the first word in its name, and 001."""
+    """Return the first rule code of a plugin: the letters of the first word of the rule's name, and 001.
+
+    "acme-old-name" -> "ACME001".
+    """
     return f"{re.sub('[^A-Z]', '', name.partition('-')[0].upper())}001"
 
 
 def check(name: str, code: str) -> None:
-    """Raise NewRuleError if the rule or its Python package cannot have this name, or the rule this code."""
+    """Raise NewRuleError if the rule cannot have this name or code, or its Python package cannot have this name."""
     rule = Rule(name, code, "", Severity.WARNING, "1.0", "")
     for problem in problems(registry.load(), [Plugin(name, (rule,))]):
         raise NewRuleError(problem)
@@ -60,7 +63,7 @@ def check(name: str, code: str) -> None:
 
 
 def files(name: str, code: str) -> dict[str, str]:
-    """Return the texts of the files of the plugin by their paths in its folder."""
+    """Return the texts of the plugin's files by their paths in its folder."""
     module = name.replace("-", "_")
     templates = {
         "pyproject.toml": "pyproject.toml.txt",
@@ -79,16 +82,17 @@ def _filled(template: str, words: Mapping[str, str]) -> str:
 
 
 def bounds(version: str) -> str:
-    """Return the versions of ros-lint that a plugin works with: ">=0.3,<0.4" for 0.3.2, ">=1.3,<2" for 1.3.2.
+    """Return the versions of ros-lint with which a new plugin works: ">=0.3,<0.4" for 0.3.2, ">=1.3,<2" for 1.3.2.
 
-    A version with another first number other than 0, or another second number after 0, may change the API (semver.org).
+    By semantic versioning (semver.org), the API may change with the first number, and with the second number while the
+    first is 0.
     """
     major, minor = map(int, version.split(".")[:2])
     return f">={major}.{minor},<{major + 1}" if major else f">=0.{minor},<0.{minor + 1}"
 
 
 def write(folder: str, texts: Mapping[str, str]) -> None:
-    """Write files into a new folder. Raises NewRuleError, also if the folder exists."""
+    """Write files into a new folder. Raises NewRuleError if the folder exists or cannot be written."""
     try:
         os.mkdir(folder)
         for path, text in texts.items():
@@ -103,7 +107,10 @@ def write(folder: str, texts: Mapping[str, str]) -> None:
 
 
 def _source() -> str:
-    """Return what pip installs this ros-lint from: the URL of the checkout or archive, else its name on the index (PEP 610)."""
+    """Return the argument with which pip installs this version of ros-lint.
+
+    It is the URL of the source tree or archive from which ros-lint was installed (PEP 610), else the name "ros-lint".
+    """
     import json  # noqa: PLC0415
     from importlib.metadata import PackageNotFoundError, distribution  # noqa: PLC0415
 

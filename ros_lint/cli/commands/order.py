@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 def run(workspace: Workspace) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code.
 
-    The code is 1 if colcon would refuse the workspace: for a cycle, or for duplicate package names. The packages that
-    can be ordered are printed anyway.
+    The code is 1 if colcon would reject the workspace because of a cycle or of duplicate package names. The packages that
+    can be ordered are printed nevertheless.
     """
     graph = dependency_graph(workspace)
     messages = [*_cycles(graph), *_behind_cycles(graph), *_duplicates(graph)]

@@ -1,4 +1,4 @@
-"""Output that several commands share: a place in JSON, a text in a Mermaid flow chart."""
+"""Functions for the output of several commands: a place in JSON, a text in a Mermaid flow chart."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ def where(span: Span) -> dict[str, object]:
 
 
 def label(text: str) -> str:
-    """Return a text with the escapes of a Mermaid flow chart."""
+    """Return a text escaped for a label in a Mermaid flow chart."""
     return "".join(letter if letter.isalnum() or letter in "_-. /" else f"#{ord(letter)};" for letter in text)

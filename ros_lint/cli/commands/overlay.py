@@ -1,4 +1,4 @@
-"""``ros-lint overlay``: list the packages that exist in several layers, and the layer that wins."""
+"""``ros-lint overlay``: list the packages that exist in several layers (workspace, underlays, release), and the one in use."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ if TYPE_CHECKING:
 
 
 class _LayerEntry(NamedTuple):
-    """A package in one layer: its place and its version."""
+    """A package in one layer: its folder or distribution, and its version."""
 
     where: str
     version: str
     layer: str
     colcon_name: str = ""
-    """The name by which colcon orders a package of the workspace."""
+    """Name under which colcon builds a package of the workspace; "" in other layers."""
 
 
 def run(workspace: Workspace) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code, which is 0.
 
-    The topmost layer wins: the workspace, then the underlays in their order, then the released packages. Raises
-    KnowledgeError.
+    The topmost layer has the package in use: the workspace, then the underlays in their order, then the released
+    packages. Raises KnowledgeError.
     """
     lines: list[str] = []
     names = {*workspace.by_name, *(name for underlay in workspace.world.underlays for name in underlay.packages)}

@@ -1,4 +1,4 @@
-"""Shared code of the commands that query a workspace: open and load it, print the output."""
+"""Open and load a workspace for the commands that print information about it, such as ``graph``."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.workspace.model import Workspace
 
 CommandOutput = tuple[str, str, int]
-"""Standard output, standard error and the exit code."""
+"""The text for standard output, the text for standard error, and the exit code."""
 
 
 def run_query(options: Mapping[str, Any], answer: Callable[[Session, Workspace], CommandOutput], *, sources: bool = True) -> int:
-    """Load the requested workspace, print what ``answer`` returns for it, and return the exit code of the answer.
+    """Load the requested workspace, print the output that ``answer`` returns for it, and return the exit code in that output.
 
-    The exit code is 2 if the workspace cannot be opened. Without ``sources`` only manifests are read.
+    The exit code is 2 if the workspace cannot be opened. If ``sources`` is False, only manifests are read.
     """
     progress = Progress(sys.stderr, wanted=options.get("progress", True))
     try:
@@ -42,7 +42,7 @@ def run_query(options: Mapping[str, Any], answer: Callable[[Session, Workspace],
 
 
 def current_workspace() -> str:
-    """Return the workspace of the package that contains the current folder; else the current folder itself."""
+    """Return the workspace around the package that contains the current folder; outside a package, the current folder itself."""
     in_package = any(os.path.isfile(os.path.join(folder, "package.xml")) for folder in upwards(os.path.realpath(os.curdir)))
     return enclosing_workspace(os.path.join(os.curdir, "package.xml")) if in_package else os.curdir
 

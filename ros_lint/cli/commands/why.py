@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Declared, Package, Workspace
 
 _TAGS = {tag: DEPENDENCY_KINDS[tag].letters for tag in ("build_export_depend", "buildtool_export_depend", "exec_depend")}
-"""The tags by which a released package provides others transitively."""
+"""Letters of the tags whose dependencies a released package passes on to its dependents."""
 
 _MOST_USES = 2
 
 
 class _EdgeReason(NamedTuple):
-    """A declaration that makes one package depend on another."""
+    """A dependency tag because of which one package depends on another."""
 
     tag: str
     place: str
@@ -35,11 +35,14 @@ class _EdgeReason(NamedTuple):
 def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code.
 
-    The package ``start`` counts with every dependency that affects the build order, other packages of the workspace with these
-    except for dependencies of tests only, and packages outside of it with their run-time dependencies.
+    These dependencies are followed:
 
-    At most ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if there is none, 2 if a name is
-    unknown. Raises KnowledgeError.
+    - of the package ``start``: all that affect the build order,
+    - of other packages of the workspace: the same, except for those of tests only,
+    - of packages outside of the workspace: run-time dependencies.
+
+    At most ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if there is none, 2 if a
+    name is unknown. Raises KnowledgeError.
     """
     unknown = [name for name in (start, end) if not _is_known(workspace, name)]
     if unknown:
@@ -59,7 +62,7 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
 
 
 class _DependencyModel:
-    """The dependencies of packages in the workspace and outside of it. Dependencies of tests count only for ``start``."""
+    """The dependencies of packages in the workspace and outside of it. Test dependencies count only for the package ``start``."""
 
     def __init__(self, workspace: Workspace, start: str) -> None:
         self._start = start
@@ -78,7 +81,7 @@ class _DependencyModel:
         return self._needs[name]
 
     def reasons(self, name: str, dependency: str) -> Iterator[_EdgeReason]:
-        """Yield the declarations because of which ``name`` depends directly on ``dependency``."""
+        """Yield the dependency tags because of which ``name`` depends directly on ``dependency``."""
         graph = dependency_graph(self.workspace)
         if dependency in graph.needs.get(name, ()):
             for reason in graph.reasons((name, dependency)):
@@ -97,12 +100,15 @@ class _DependencyModel:
             yield from (_EdgeReason(tag, place) for tag in tags)
 
     def uses(self, name: str, dependency: str) -> list[tuple[str, Span]]:
-        """Return the uses of the dependency in the sources of the package, each as quotation and place, sorted by place."""
+        """Return the uses of ``dependency`` in the sources of the package ``name``, each as quotation and place, sorted."""
         places = {use.span: use.what for package in self._packages(name) for use in package.uses if dependency in use.providers}
         return [(places[span], span) for span in sorted(places)]
 
     def _counts(self, name: str, reason: Reason) -> bool:
-        """Return whether a reason of an edge from a package counts. The tests of a dependency do not run with its dependents."""
+        """Return whether a dependency of the package ``name`` counts.
+
+        Test dependencies count only for the first package of a path.
+        """
         return name == self._start or reason.categories != ("test",)
 
     def _declared(self, name: str) -> Iterator[Declared]:

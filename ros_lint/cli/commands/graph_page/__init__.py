@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def render(graph: Graph, title: str) -> str:
-    """Return the page of a graph. ``title`` is the name of the workspace."""
+    """Return the HTML page of a graph. ``title`` is the name of the workspace."""
     import html  # noqa: PLC0415
 
     return fill(

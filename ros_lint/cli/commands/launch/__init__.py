@@ -1,1 +1,1 @@
-"""The command ``ros-lint launch``: find a launch file, expand it and print what it starts."""
+"""``ros-lint launch``: find a launch file, evaluate it with the files that it includes, and print what it starts."""

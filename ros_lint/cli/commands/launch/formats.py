@@ -1,19 +1,19 @@
-"""The output of ``ros-lint launch``, for people (tree, mermaid) and for programs (json).
+"""The output formats of ``ros-lint launch``: for people (tree, mermaid) and for programs (json).
 
 The JSON has ``schema_version`` 1, ``file``, and
 
-- ``arguments``: those of the launch file and of included ones, each with ``name``, ``values``, ``given``, ``included``
-  (true if an included file declares it), ``path``, ``line`` and ``column``;
+- ``arguments``: those of the launch file and of included files, each with ``name``, ``values``, ``given`` (true if the
+  command line sets it), ``included`` (true if an included file declares it), ``path``, ``line`` and ``column``;
 - ``starts``: in order, each with ``kind`` (node, component, process, include), ``package``, ``target`` (executable,
   class, command or file), ``name``, ``namespace``, ``container``, ``parameters``, ``remappings``, ``environment``,
   ``arguments``, ``words`` (the command-line arguments of a node), ``later`` (true if a timer or an event starts it),
-  ``certain``, ``when`` (the conditions), ``unknown`` (why something is unknown), ``path``, ``line`` and ``column``; for
-  an include also ``follows`` (the file that was read, or null) and ``starts``;
-- ``unknown``: places in these files that could not be analysed, each with ``reason``, ``path``, ``line`` and
-  ``column``.
+  ``certain``, ``when`` (the conditions), ``unknown`` (reasons why something is unknown), ``path``, ``line`` and
+  ``column``; for an include also ``follows`` (the file that was read, or null) and ``starts``;
+- ``unknown``: places in these files that could not be analysed, each with ``reason``, ``path``, ``line`` and ``column``;
+- ``complete``: false if the evaluation stopped early, because includes are cyclic or a limit was exceeded.
 
-Texts are lists of alternatives, in the syntax of XML launch files, with ``?`` for unknown parts. The alternative "" of ``name``
-is the name that the program of the node sets.
+Texts are lists of alternatives, in the syntax of XML launch files, with ``?`` for unknown parts. The alternative "" of
+``name`` means that the program of the node sets its name.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _MOST_UNKNOWN = 20
 
 
 class ExpandedFile(NamedTuple):
-    """A launch file with its expansion, as the formats print it."""
+    """An evaluated launch file, with the data that the output formats need."""
 
     file: LaunchFile
     expansion: Expansion
@@ -56,7 +56,7 @@ def _value(texts: Iterable[str]) -> str:
 
 
 def _full_name(started: Started) -> str:
-    """Return the name of a node with its namespace, "" if it is unknown. "..." stands for a name that the program sets."""
+    """Return the name of a node with its namespace, "" if it is unknown. "..." replaces a name that the node's program sets."""
     spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
     if not started.name:
         return readable(" | ".join(dict.fromkeys(f"{space}/..." for space in spaces if space)))
@@ -64,7 +64,7 @@ def _full_name(started: Started) -> str:
 
 
 def _condition(condition: LaunchCondition) -> str:
-    """Return a condition as text, such as "if $(var use_sim_time)"; "" if nothing is known about it."""
+    """Return a condition as text, such as "if $(var use_sim_time)"; "" if the text of the condition is unknown."""
     if all(text.rstrip("0123456789") == UNKNOWN for text in condition.texts):
         return ""
     text = _text(condition.texts)
@@ -108,7 +108,7 @@ def _unknown(expanded: ExpandedFile) -> list[tuple[str, Span]]:
 
 
 def tree(expanded: ExpandedFile) -> str:
-    """Return the expansion as text: an indented line for each action that is started, and a summary."""
+    """Return the tree format: an indented line for each started node, component, process or include, and a summary."""
     expansion = expanded.expansion
     lines = [expanded.file.path]
     lines += [f"  {_argument(argument)}" for argument in expansion.arguments if argument.depth == 0]
@@ -172,7 +172,7 @@ def _summary(expansion: Expansion) -> str:
 
 
 def json(expanded: ExpandedFile) -> str:
-    """Return the expansion as JSON."""
+    """Return the JSON format; see the module for its keys."""
     import json as library  # noqa: PLC0415  (only for this format)
 
     expansion = expanded.expansion
@@ -247,7 +247,7 @@ def _list(texts: Iterable[str]) -> list[str]:
 
 
 def mermaid(expanded: ExpandedFile) -> str:
-    """Return the expansion as a Mermaid flow chart. Arrows to conditional actions are dotted."""
+    """Return a Mermaid flow chart of what the launch file starts. Arrows to conditional actions are dotted."""
     lines = ["flowchart LR", f'  n0["{label(expanded.file.path.rpartition("/")[2])}"]']
     above = ["n0"]
     for number, started in enumerate(expanded.expansion.started, 1):

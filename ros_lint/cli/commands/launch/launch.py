@@ -1,8 +1,9 @@
-"""``ros-lint launch FILE [name:=value ...]``: what a launch file would start, without starting it.
+"""``ros-lint launch FILE [name:=value ...]``: print what a launch file would start, without starting it.
 
 The exit code is:
-- 0 if launching would succeed, as far as can be determined,
-- 1 if it would fail, with the reasons on standard error,
+
+- 0 if launching would succeed, or if its failure cannot be determined,
+- 1 if launching would fail, with the reasons on standard error,
 - 2 for an invalid request: an unknown file, package or argument, or a file that is not a launch file.
 """
 
@@ -28,17 +29,17 @@ if TYPE_CHECKING:
 
 
 class LaunchRequest(NamedTuple):
-    """The launch file and the launch arguments on the command line."""
+    """The launch file and the launch arguments that the command line names."""
 
     package: str
-    """Name of the package, or "" if ``file`` is a path."""
+    """Name of the package that installs the launch file, "" if ``file`` is a path."""
     file: str
-    """File name of an installed launch file of the package, or a path."""
+    """File name of a launch file that the package installs, or a path."""
     arguments: Mapping[str, str]
 
 
 def run(options: Mapping[str, Any]) -> int:
-    """Run the command, print the answer, return the exit code."""
+    """Run ``ros-lint launch``, print its output and return the exit code."""
     try:
         request = parse_launch_request(options["words"], os.path.isfile)
         paths = options.get("paths") or [current_workspace() if request.package else enclosing_workspace(request.file)]
@@ -54,10 +55,10 @@ def run(options: Mapping[str, Any]) -> int:
 
 
 def parse_launch_request(words: Sequence[str], is_file: Callable[[str], bool]) -> LaunchRequest:
-    """Return the request that the words of the command line make, in the syntax of ``ros2 launch``.
+    """Return the launch file and arguments that the words of the command line name, in the syntax of ``ros2 launch``.
 
-    The words are FILE or PACKAGE FILE, and arguments ``name:=value`` in any place. ``is_file`` returns whether a path is
-    an existing file. Raises UsageError.
+    The words are FILE or PACKAGE FILE, and arguments ``name:=value`` at any position. ``is_file`` returns whether a path
+    is an existing file. Raises UsageError.
     """
     places = [word for word in words if ":=" not in word]
     arguments: dict[str, str] = {}
@@ -81,8 +82,8 @@ def parse_launch_request(words: Sequence[str], is_file: Callable[[str], bool]) -
 def answer(workspace: Workspace, lookup: LaunchFileLookup, request: LaunchRequest, path: str, form: str) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code: 1 if launching would fail, else 0.
 
-    ``path`` is the path of the file relative to the base of the workspace; it is ignored if the request names a package.
-    ``form`` is a key of ``formats.FORMATS``. Raises UsageError.
+    ``path`` is the path of the file relative to the base folder; it is ignored if the request names a package. ``form``
+    is the output format, a key of ``formats.FORMATS``. Raises UsageError.
     """
     if request.package:
         file, place = lookup.installed_file(request.package, request.file)
@@ -99,9 +100,9 @@ def answer(workspace: Workspace, lookup: LaunchFileLookup, request: LaunchReques
 def _argument_warnings(
     file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion, arguments: Mapping[str, str]
 ) -> Iterator[str]:
-    """Yield a warning for each argument that no readable launch file uses.
+    """Yield a warning for each given launch argument that no readable launch file uses.
 
-    Raises UsageError if all files are readable or a declared argument has a similar name.
+    Raises UsageError for such an argument if all files are readable, or if a declared argument has a similar name.
     """
     accepted = lookup.accepted_arguments(file)
     declared = list(dict.fromkeys(argument.name for argument in expansion.arguments))
@@ -117,7 +118,7 @@ def _argument_warnings(
 
 
 def _problems(file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion) -> Iterator[str]:
-    """Yield the reasons why launching would fail, each with its place."""
+    """Yield a message with a place for each reason why launching would fail."""
     for launch_file in (file, *lookup.followed):
         for problem in launch_file.problems:
             yield f"{problem.span}: {problem.message}"

@@ -1,4 +1,4 @@
-"""Find launch files by path or by package, in the workspace or installed in an underlay."""
+"""Find launch files by path or by package, in the workspace or in an underlay."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 
 
 class Absent(NamedTuple):
-    """The reason why a launch file could not be read."""
+    """The reason why a launch file was not read."""
 
     reason: str
     certain: bool
-    """True if the launch file will certainly not exist at run time."""
+    """True if the launch file certainly does not exist when the workspace is launched."""
 
 
 class LaunchFileLookup:
-    """Finds launch files, and remembers which includes were read, and which could not be read."""
+    """Finds launch files. It stores the included files that it has read, and the reasons why others could not be read."""
 
     def __init__(self, workspace: Workspace, tree: Tree) -> None:
         self._workspace = workspace
@@ -44,15 +44,15 @@ class LaunchFileLookup:
 
     @property
     def followed(self) -> tuple[LaunchFile, ...]:
-        """Return the included files in the order in which they were read."""
+        """The included files that were read, in the order of reading."""
         return tuple(file for file in self._results.values() if not isinstance(file, Absent))
 
     def accepted_arguments(self, file: LaunchFile) -> AcceptedArguments:
-        """Return the launch arguments that a file and its includes in the workspace accept."""
+        """Return the launch arguments that a launch file, and the files of the workspace that it includes, accept."""
         return self._includes.takes(file)
 
     def used(self, file: LaunchFile) -> frozenset[str]:
-        """Return the launch configurations that a file or one of its includes reads."""
+        """Return the names of the launch configurations that a launch file or one of the files read so far reads."""
         result: set[str] = set()
         for launch_file in (file, *self.followed):
             for action in walk_actions(launch_file.actions):
@@ -62,22 +62,25 @@ class LaunchFileLookup:
         return frozenset(result)
 
     def absent(self, path: str) -> Absent | None:
-        """Return why the file of an include could not be read; None if it was read or :meth:`included` was not called."""
+        """Return the reason why the included file at ``path`` could not be read; None if it was read or never requested."""
         result = self._results.get(path)
         return result if isinstance(result, Absent) else None
 
     # --- the file that is launched --------------------------------------------------------------------------------
 
     def source_file(self, path: str) -> LaunchFile:
-        """Return a launch file by its path, relative to the base of the workspace. Raises UsageError."""
+        """Return the launch file at a path that is relative to the base folder.
+
+        Raises UsageError if the file cannot be read or is not a launch file.
+        """
         launch_file = self._sources.get(path) or self._read(path)
         return self._launchable(launch_file, path)
 
     def installed_file(self, package: str, name: str) -> tuple[LaunchFile, str]:
-        """Return the launch file that a package installs under a file name, and its install path.
+        """Return the launch file ``name`` that a package installs, and its install path.
 
-        Like ``ros2 launch`` (ros2launch/api), it searches all folders below share/<package>. Raises UsageError if there
-        is not exactly one file of that name.
+        Like ``ros2 launch`` (ros2launch/api), this searches all folders below share/<package>. Raises UsageError if there
+        is not exactly one file of this name.
         """
         packages = self._workspace.by_name.get(package, ())
         installed_package = self._workspace.world.installed(package)
@@ -123,7 +126,7 @@ class LaunchFileLookup:
     # --- files that are included ----------------------------------------------------------------------------------
 
     def included(self, path: str) -> LaunchFile | None:
-        """Return the launch file at the path of an include; None if it cannot be read, see :meth:`absent`."""
+        """Return the launch file at the path in an include; None if it cannot be read, see :meth:`absent`."""
         result = self._results.get(path)
         if result is None:
             result = self._results[path] = self._find(path)

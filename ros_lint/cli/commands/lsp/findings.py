@@ -1,4 +1,4 @@
-"""Diagnostics and code actions of the findings of a snapshot."""
+"""Convert the findings of a checked project to diagnostics and code actions of the Language Server Protocol."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def uri_of(base: str, path: str) -> str:
 
 
 def diagnostics(snapshot: Snapshot, positions: Positions) -> dict[str, list[types.Diagnostic]]:
-    """Return the diagnostics of a snapshot by the URI of their file."""
+    """Return the diagnostics for the findings of a snapshot, by the URI of their file."""
     result: dict[str, list[types.Diagnostic]] = {}
     for issue in snapshot.report.issues:
         result.setdefault(uri_of(snapshot.base, issue.finding.span.path), []).append(_diagnostic(snapshot, issue, positions))
@@ -58,7 +58,7 @@ def _diagnostic(snapshot: Snapshot, issue: Issue, positions: Positions) -> types
 
 
 def _only_removes(issue: Issue) -> bool:
-    """Return whether the fix removes exactly the place of the finding, which an editor shows as unnecessary."""
+    """Return whether the fix of an issue only removes one piece of text. An editor then shows the finding as unnecessary code."""
     fix = issue.finding.fix
     return fix is not None and all(not edit.text for edit in fix.edits) and len(fix.edits) == 1
 
@@ -66,10 +66,10 @@ def _only_removes(issue: Issue) -> bool:
 def code_actions(
     snapshot: Snapshot, positions: Positions, path: str, first: int, last: int, only: Sequence[str]
 ) -> Iterator[types.CodeAction]:
-    """Yield the fixes of the findings in the lines ``first`` to ``last`` of a file, and the fixes of many findings at once.
+    """Yield the fixes of the findings in the lines ``first`` to ``last`` of a file, and actions that fix many findings at once.
 
-    ``only`` are the kinds that the client wants, () for all. The fixes of many findings have no edit yet, but ``data`` with the
-    rule, "" for all rules.
+    ``only`` has the kinds of actions that the client requests, () for all. An action that fixes many findings has no edit
+    yet. Its ``data`` has the name of the rule, "" for all rules.
     """
     issues = [issue for issue in snapshot.report.issues if issue.finding.fix and issue.finding.span.path == path]
     here = [issue for issue in issues if issue.finding.span.line <= last and issue.finding.span.end_line >= first]
@@ -107,7 +107,7 @@ def _wants(only: Sequence[str], kind: str) -> bool:
 
 
 def workspace_edit(snapshot: Snapshot, positions: Positions, changed: Mapping[str, bytes]) -> types.WorkspaceEdit:
-    """Return the edit that gives files their new contents, by path."""
+    """Return the edit that replaces the contents of files by ``changed``, the new contents by path."""
     return _workspace_edit(snapshot, positions, {path: read(path, data).text for path, data in changed.items()})
 
 

@@ -10,7 +10,10 @@ from typing import Any
 
 
 def run(options: Mapping[str, Any]) -> int:
-    """Serve an editor until it exits. Returns the exit code: 2 if the library for the protocol is not installed, else 0."""
+    """Serve an editor until it exits.
+
+    Return the exit code: 2 if pygls, the library for the protocol, is not installed, else 0.
+    """
     try:
         from ros_lint.cli.commands.lsp.server import create  # noqa: PLC0415  (needs pygls, an optional dependency)
     except ModuleNotFoundError as error:

@@ -1,4 +1,4 @@
-"""Answers about a place in a file: the thing that is named there, its definition and uses, and completions."""
+"""Answer requests about a place in a file: hover text, definition and uses of the name at the place, and completions."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Package, Workspace
 
 _MOST_USES = 5
-"""Number of uses that a hover lists."""
+"""Maximum number of uses in a hover text."""
 
 MOST_COMPLETIONS = 200
-"""Largest number of completions."""
+"""Maximum number of completions."""
 
 
 class Target(NamedTuple):
-    """Something in a file that has a definition: a package, or something in a package."""
+    """A name in a file that has a definition: the name of a package, or of an executable, class or file in a package."""
 
     span: Span
-    """The place of the name."""
+    """The place of the name in the file."""
     package: str
     """Name of the package or rosdep key."""
     name: str = ""
-    """Name in the package, "" for the package itself."""
+    """Name of the executable, class or file in the package, "" for the package itself."""
     kind: str = "package"
     """Kind of the name: package, node, component, include (of a launch file), file, header or import."""
 
 
 def targets(workspace: Workspace, path: str) -> Iterator[Target]:
-    """Yield what a file names, in no particular order."""
+    """Yield the names in a file that refer to packages, or to executables, classes or files of packages, unsorted."""
     for package in workspace.packages:
         if package.manifest is not None and package.manifest.path == path:
             yield Target(package.manifest.name_span, package.name)
@@ -59,7 +59,7 @@ def targets(workspace: Workspace, path: str) -> Iterator[Target]:
 
 
 def target_at(workspace: Workspace, path: str, place: Place) -> Target | None:
-    """Return what is named at a place: of several things, the one with the shortest span; None if there is nothing."""
+    """Return the name at a place: the one with the shortest span if several include the place, None if there is none."""
     here = [target for target in targets(workspace, path) if place.is_in(target.span)]
     return min(here, key=lambda target: _size(target.span), default=None)
 
@@ -69,9 +69,10 @@ def _size(span: Span) -> tuple[int, int]:
 
 
 def definitions(workspace: Workspace, target: Target) -> list[Span]:
-    """Return where a target is defined: the name in a manifest, a CMake target, an entry point's module, or a file.
+    """Return the places where a target is defined: a name in a manifest, a CMake target, a module of an entry point, or a file.
 
-    The list is empty for packages outside of the workspace. If the target is not found in its package, the package is returned.
+    The list is empty for packages outside of the workspace. If the definition is not found in the package, the place of
+    the package is returned.
     """
     packages = workspace.called(target.package)
     found = [span for package in packages for span in _in_package(package, target)]
@@ -108,7 +109,7 @@ def _in_package(package: Package, target: Target) -> Iterator[Span]:
 
 
 def _module(package: Package, name: str) -> Iterator[Span]:
-    """Yield the file of a dotted module of a package."""
+    """Yield the start of the file of a Python module of a package. ``name`` may be dotted."""
     path = name.replace(".", "/")
     for file in (f"{path}.py", f"{path}/__init__.py"):
         if file in package.files:
@@ -116,7 +117,7 @@ def _module(package: Package, name: str) -> Iterator[Span]:
 
 
 def _source(package: Package, source: str, target: str) -> Iterator[Span]:
-    """Yield the definition of an installed program: its source file, or the command that creates its CMake target."""
+    """Yield the definition of an installed program: the start of its source, or the command that creates its CMake target."""
     if source:
         yield package.start_of(source)
     for built in package.built.products.targets:
@@ -125,7 +126,7 @@ def _source(package: Package, source: str, target: str) -> Iterator[Span]:
 
 
 def references(workspace: Workspace, name: str) -> list[Span]:
-    """Return the places that name a package: dependency tags, uses and launch files."""
+    """Return the places that refer to a package: dependency tags, uses in sources, and references in launch files."""
     spans = []
     for package in workspace.packages:
         if package.manifest is not None:
@@ -138,7 +139,7 @@ def references(workspace: Workspace, name: str) -> list[Span]:
 
 
 def describe(snapshot: Snapshot, target: Target, owner: Package | None) -> str:
-    """Return a description of a target in Markdown: what it is, where it comes from, and where ``owner`` uses it."""
+    """Return the hover text of a target in Markdown: its kind and origin, and the places where the package ``owner`` uses it."""
     workspace = snapshot.workspace
     lines = [f"**{target.package}**: {_origin(workspace, target.package)}"]
     if target.name:
@@ -192,13 +193,14 @@ _PACKAGE_VALUE = re.compile(
 _EXECUTABLE_VALUE = re.compile(r"""(?:\bexecutable\s*=\s*|\bexec\s*=\s*|\bexec:\s*)["']?([\w.-]*)\Z""")
 _PACKAGE = re.compile(r"""\b(?:package|pkg)\s*[=:]\s*["']?([\w-]+)""")
 _MOST_LINES = 6
-"""Number of lines above an executable in which its package is searched."""
+"""Number of lines above the name of an executable in which the name of its package is searched for."""
 
 
 def completions(workspace: Workspace, text: Text, place: Place) -> tuple[str, Sequence[str]]:
-    """Return the word before a place, and the names that can replace the word, at most 200.
+    """Return the word before a place, and at most 200 names that begin with the word and can replace it.
 
-    These are names of packages and rosdep keys in a dependency tag; in a launch file, packages and the programs they install.
+    In a dependency tag, these are names of packages and rosdep keys; in a launch file, names of packages and of the
+    programs that packages install.
     """
     try:
         before = text.line(place.line)[: place.column - 1]
@@ -229,7 +231,7 @@ def _programs(workspace: Workspace, text: Text, place: Place) -> set[str]:
 
 
 def links(workspace: Workspace, path: str) -> Iterator[tuple[Span, Span]]:
-    """Yield the places in a launch file that name another file of the workspace, each with that file."""
+    """Yield pairs of a place in a launch file and the place of the file of the workspace that the launch file refers to there."""
     for target in targets(workspace, path):
         if target.kind in ("include", "file") and target.name:
             for package in workspace.called(target.package):

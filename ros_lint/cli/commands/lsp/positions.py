@@ -1,7 +1,7 @@
-"""Places of ros-lint and ranges of the protocol.
+"""Convert places in files between ros-lint and the Language Server Protocol.
 
-Lines and columns of a :class:`Span` count from 1, columns in code points. The protocol counts from 0, and columns in the units
-that server and client agreed on, by default the code units of UTF-16.
+Lines and columns of a :class:`Span` count from 1, columns in code points. In the protocol both count from 0, and columns
+are in the units that server and client agreed on, by default UTF-16 code units.
 """
 
 from __future__ import annotations
@@ -31,25 +31,28 @@ class Place(NamedTuple):
     column: int
 
     def is_in(self, span: Span) -> bool:
-        """Return whether the position is in a span or at its end, where an editor has its cursor after a word."""
+        """Return whether the position is in a span or at its end, because the cursor is at the end after typing."""
         return (span.line, span.column) <= self <= (span.end_line, span.end_column)
 
 
 class Positions:
-    """Converts between places and positions of the protocol. ``encoding`` is the Python codec of the agreed units."""
+    """Converts places to positions of the protocol and back. ``encoding`` is the Python codec for the units of columns."""
 
     def __init__(self, encoding: str, text: Callable[[str], Text | None]) -> None:
         self._encoding = encoding
         self._text = text
 
     def range(self, span: Span) -> types.Range:
-        """Return the range of a span."""
+        """Return a span as a range of the protocol."""
         text = self._text(span.path)
         start, end = (span.line, span.column), (span.end_line, span.end_column)
         return types.Range(self._position(text, *start), self._position(text, *end))
 
     def place(self, text: Text, position: types.Position) -> Place:
-        """Return the place of a position in ``text``. A position behind the end of a line is at its end."""
+        """Return a position of the protocol in ``text`` as a place.
+
+        A position behind the end of a line becomes the end of the line.
+        """
         try:
             line = text.line(position.line + 1)
         except IndexError:
@@ -58,7 +61,7 @@ class Positions:
         return Place(position.line + 1, len(data.decode(self._encoding, "ignore")) + 1)
 
     def change(self, path: str, new: str) -> types.TextEdit:
-        """Return the smallest edit of whole lines that turns the text of a file into ``new``."""
+        """Return the smallest edit of whole lines that changes the text of the file at ``path`` to ``new``."""
         text = self._text(path)
         old_lines, new_lines = _lines(text.text if text else ""), _lines(new)
         most = min(len(old_lines), len(new_lines))
@@ -80,5 +83,5 @@ class Positions:
 
 
 def _lines(text: str) -> list[str]:
-    """Return the lines of a text with their line ends, which are those of the protocol."""
+    """Return the lines of a text with their line ends: LF, CR LF or CR, as in the protocol."""
     return _LINE.findall(text)

@@ -1,4 +1,4 @@
-"""A workspace that is open in an editor, and its check with the unsaved texts of the editor."""
+"""A folder that is open in an editor, and its check with the unsaved texts of the editor."""
 
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ Progress = Callable[[str, int, int], None]
 
 
 class Snapshot(NamedTuple):
-    """A workspace with the report about it. Unsaved texts of the editor replace the contents of files on disk."""
+    """A checked workspace and its report. Unsaved texts of the editor replace the contents of files on disk."""
 
     base: str
     """Absolute folder to which all paths are relative."""
     workspace: Workspace
-    """The workspace for the first distribution."""
+    """The workspace, loaded for the first distribution of the run."""
     report: Report
     text: Callable[[str], Text | None]
-    """Returns the text of a file as it was checked; None if the file cannot be read."""
+    """A function that returns the checked text of a file by path; None if the file cannot be read."""
 
 
 class Project:
-    """A folder of the editor. Its files are read once, and again only after :meth:`refresh`.
+    """A folder that is open in the editor. Its files are read once, and again only after :meth:`refresh`.
 
-    ``options`` are those of the command line. The constructor reads the configuration and raises UserError.
+    ``options`` are those of the command line. The constructor reads the settings and raises UserError.
     """
 
     def __init__(self, folder: str, options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> None:
@@ -50,13 +50,13 @@ class Project:
         self.reopen()
 
     def reopen(self) -> None:
-        """Read the configuration and the changed files again. Raises UserError."""
+        """Read the settings and the changed files again. Raises UserError."""
         self._request: Request = parse_request(self._options, self._environment)
         self._session: Session = open_session(self._request, self._progress)
 
     @property
     def base(self) -> str:
-        """Absolute folder to which the paths of findings are relative: the repository or the workspace."""
+        """Absolute folder to which the paths of findings are relative: the root of the git repository, or else the workspace."""
         return self._request.base
 
     @property
@@ -65,13 +65,13 @@ class Project:
         return (*self._request.settings.warnings, *self._session.warnings)
 
     def contains(self, path: str) -> bool:
-        """Return whether an absolute path is in the folder."""
+        """Return whether an absolute path is in the folder of this project."""
         return is_below(path, self.folder)
 
     def check(self, unsaved: Mapping[str, bytes]) -> Snapshot:
-        """Return the workspace and its report. ``unsaved`` has the texts of the editor by path, relative to the base.
+        """Return a snapshot of the workspace. ``unsaved`` has the unsaved texts of the editor by path, relative to ``base``.
 
-        Raises KnowledgeError if the data of released packages cannot be read.
+        Raises KnowledgeError if the data about released packages cannot be read.
         """
         loader = self._session.loader
         workspaces = loader.load_all(unsaved)
@@ -83,9 +83,9 @@ class Project:
         return Snapshot(self.base, workspaces[0], report, text)
 
     def fixes(self, unsaved: Mapping[str, bytes], rule: str = "") -> Mapping[str, bytes]:
-        """Return the new contents of files after all safe fixes, or those of one rule, by path.
+        """Return the new contents of files, by path, after all safe fixes, or after those of ``rule`` if it is not "".
 
-        Each fix is verified: it causes no other finding. Nothing is written.
+        Each fix has passed a trial: it causes no other finding. No file is written.
         """
         session = self._session
         selection = selection_of(session.settings)
@@ -97,7 +97,7 @@ class Project:
         return {path: data for path, data in changed.items() if unsaved.get(path) != data}
 
     def refresh(self, paths: Mapping[str, object]) -> None:
-        """Note that files changed on disk. ``paths`` are absolute. Raises UserError for a configuration that is now invalid."""
+        """Record that files changed on disk. ``paths`` are absolute. Raises UserError if the settings are now invalid."""
         relative = {os.path.relpath(path, self.base).replace(os.sep, "/") for path in paths}
         if not self._session.loader.forget(relative) or find(self.folder) in paths:
             self.reopen()

@@ -1,4 +1,4 @@
-"""The language server: requests and notifications of the protocol, answered from the latest snapshot of a project."""
+"""The language server: handles requests and notifications of the protocol with the last snapshot of each project."""
 
 from __future__ import annotations
 
@@ -25,32 +25,32 @@ _DELAY = 0.15
 """Seconds without a change after which the workspace is checked again."""
 
 _WATCHED = "**/*"
-"""Pattern of the files whose changes on disk the client reports: any file can be installed or looked up."""
+"""Pattern of the files whose changes on disk the editor reports: all, because any file can be installed or looked up."""
 
 
 class OpenProject:
-    """A project of the editor with its latest snapshot.
+    """A project of the editor, with its last snapshot.
 
-    All work on a project is done in one thread. If a text changes during a check, its snapshot is not published, and the project
-    is checked again.
+    All work on projects is done in one thread. If a text changes during a check, the diagnostics of that check are not
+    published, and the project is checked again.
     """
 
     def __init__(self, project: Project) -> None:
         self.project = project
         self.lock = asyncio.Lock()
         self.version = 0
-        """Number of changes so far."""
+        """Number of changes of the project so far."""
         self.checked = -1
-        """The version of the snapshot."""
+        """Value of ``version`` at the time of ``snapshot``; -1 before the first check."""
         self.snapshot: Snapshot | None = None
         self.changed_on_disk: dict[str, None] = {}
         self.timer: asyncio.Task[None] | None = None
         self.published: set[str] = set()
-        """The URIs with diagnostics."""
+        """URIs of the files with diagnostics in the editor."""
 
 
 class RosLintServer(LanguageServer):
-    """A server for the folders of one editor. ``options`` are those of the command line."""
+    """The language server for the folders of one editor. ``options`` are those of the command line."""
 
     def __init__(self, options: Mapping[str, Any], environment: Mapping[str, str]) -> None:
         super().__init__("ros-lint", f"v{__version__}", max_workers=1)
@@ -59,9 +59,9 @@ class RosLintServer(LanguageServer):
         self._pool = ThreadPoolExecutor(1)
         self._projects: list[OpenProject] = []
         self.watches = False
-        """True if the client reports changes on disk. Otherwise all files are read again for each check."""
+        """True if the editor reports changes on disk. If False, all files are read again for each check."""
         self.ready = asyncio.Event()
-        """Set once the folders of the editor are open."""
+        """Set when the folders of the editor have been opened."""
 
     async def open_folders(self) -> None:
         """Open and check the folders of the editor."""
@@ -74,7 +74,7 @@ class RosLintServer(LanguageServer):
         self.ready.set()
 
     async def open(self, folder: str) -> None:
-        """Open and check a folder. An invalid configuration is shown to the user."""
+        """Open and check a folder. An invalid configuration is reported to the user."""
         try:
             project = await self._work(lambda: Project(folder, self._options, self._environment, lambda step, done, total: None))
         except UserError as error:
@@ -87,14 +87,17 @@ class RosLintServer(LanguageServer):
         await self.current(opened)
 
     async def close_folders(self, uris: list[str]) -> None:
-        """Forget folders and clear their diagnostics."""
+        """Close the projects of folders and clear their diagnostics."""
         folders = {os.path.realpath(path) for uri in uris if (path := to_fs_path(uri))}
         for opened in [opened for opened in self._projects if opened.project.folder in folders]:
             self._projects.remove(opened)
             self._publish(opened, {})
 
     def project_of(self, uri: str) -> tuple[OpenProject, str] | None:
-        """Return the innermost project that contains a file, with the path of the file relative to its base."""
+        """Return the innermost project that contains a file, and the file's path relative to the project's base.
+
+        Return None if no project contains the file.
+        """
         path = os.path.realpath(to_fs_path(uri) or "")
         inside = [opened for opened in self._projects if opened.project.contains(path)]
         if not inside:
@@ -120,7 +123,7 @@ class RosLintServer(LanguageServer):
         await self.current(opened)
 
     async def current(self, opened: OpenProject) -> Snapshot | None:
-        """Return a snapshot of the current texts; None if the workspace cannot be checked. Publishes its diagnostics."""
+        """Return a snapshot of the current texts and publish its diagnostics; None if the workspace cannot be checked."""
         async with opened.lock:
             while opened.checked != opened.version:
                 version = opened.version
@@ -140,7 +143,7 @@ class RosLintServer(LanguageServer):
             return None
 
     async def fixes(self, opened: OpenProject, rule: str) -> types.WorkspaceEdit | None:
-        """Return the verified safe fixes of a project, or those of one rule; None if it cannot be checked."""
+        """Return the edits of all safe fixes of a project, or of those of ``rule`` if not ""; None if it cannot be checked."""
         snapshot = await self.current(opened)
         if snapshot is None:
             return None
@@ -149,11 +152,11 @@ class RosLintServer(LanguageServer):
         return findings.workspace_edit(snapshot, self.positions(snapshot), changed)
 
     def positions(self, snapshot: Snapshot) -> Positions:
-        """Return the conversion of places for the encoding that the client and the server agreed on."""
+        """Return a converter of places to positions in the encoding that the editor and the server agreed on."""
         return Positions(ENCODINGS[types.PositionEncodingKind(self.workspace.position_encoding or "utf-16")], snapshot.text)
 
     def unsaved(self, project: Project) -> dict[str, bytes]:
-        """Return the texts of the editor by path, relative to the base of the project."""
+        """Return the texts of a project's files that are open in the editor, by path relative to the base of the project."""
         texts = {}
         for document in list(self.workspace.text_documents.values()):
             path = os.path.realpath(document.path)
@@ -178,7 +181,10 @@ class RosLintServer(LanguageServer):
 
 
 def _check(project: Project, changed_on_disk: Mapping[str, None] | None, unsaved: Mapping[str, bytes]) -> Snapshot:
-    """Return a snapshot. ``changed_on_disk`` are the files to read again, None if any file may have changed."""
+    """Return a new snapshot of a project.
+
+    ``changed_on_disk`` has the absolute paths of the files to read again; None if any file may have changed.
+    """
     if changed_on_disk is None:
         project.reopen()
     elif changed_on_disk:
@@ -187,7 +193,7 @@ def _check(project: Project, changed_on_disk: Mapping[str, None] | None, unsaved
 
 
 def create(options: Mapping[str, Any], environment: Mapping[str, str]) -> RosLintServer:
-    """Return a server with all its features, not started."""
+    """Return a language server with all its features. The server is not started."""
     server = RosLintServer(options, environment)
     _add_synchronisation(server)
     _add_navigation(server)
@@ -238,7 +244,7 @@ def _add_synchronisation(server: RosLintServer) -> None:
 
 
 class _Request:
-    """A request about a place in a file, with the snapshot to answer it from."""
+    """A request of the editor about a place in a file, with the snapshot from which it is answered."""
 
     def __init__(self, server: RosLintServer, opened: OpenProject, snapshot: Snapshot, path: str, place: Place) -> None:
         self.opened = opened
@@ -249,12 +255,12 @@ class _Request:
         self.target = navigation.target_at(snapshot.workspace, path, place)
 
     def location(self, span: Span) -> types.Location:
-        """Return a span as a location of the protocol."""
+        """Return a span as a location of the protocol: URI and range."""
         return types.Location(findings.uri_of(self.snapshot.base, span.path), self.positions.range(span))
 
 
 async def _request(server: RosLintServer, uri: str, position: types.Position) -> _Request | None:
-    """Return the request for the current texts; None if the file is in no project or cannot be read."""
+    """Return the request with a snapshot of the current texts; None if the file is in no project or cannot be read."""
     await server.ready.wait()
     if (place := server.project_of(uri)) is None:
         return None
@@ -337,7 +343,7 @@ def _add_actions(server: RosLintServer) -> None:
 
 
 def _with_uri(action: types.CodeAction, uri: str) -> types.CodeAction:
-    """Return a code action whose data names the file of the request."""
+    """Return a code action with the URI of the request's file in its data, if it has data."""
     if action.data is not None:
         action.data = {**action.data, "uri": uri}
     return action
