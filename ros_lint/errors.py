@@ -1,7 +1,7 @@
-"""Errors that end a run with a message for the user."""
+"""The base class of the errors that end a run with a message for the user."""
 
 from __future__ import annotations
 
 
 class UserError(Exception):
-    """A request of the user that cannot be fulfilled. The message names the reason and the remedy."""
+    """A request of the user cannot be fulfilled. The message states the reason and a remedy."""

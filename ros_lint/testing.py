@@ -1,21 +1,22 @@
-"""Test rules with cases in Markdown: the rules of ros-lint, and those of plugins.
+"""Test rules with cases in Markdown files. It serves the rules of ros-lint and of plugins.
 
-A file of cases is named after its rule. Each ``##`` heading begins a case, which is a small workspace:
+A file of cases has the name of its rule. Each ``##`` heading begins a case, which is a small workspace:
 
 - A line that is a path in backticks, followed by a fenced block, is a file.
-- A line ``package robot (ament_cmake): depend rclcpp, exec_depend rviz2`` is the file ``robot/package.xml``. The build type may
-  be left out. ``package robot (ament_cmake) in src/robot`` names another folder; ``.`` is the root.
+- A line ``package robot (ament_cmake): depend rclcpp, exec_depend rviz2`` is the file ``robot/package.xml``. The build
+  type may be left out. ``package robot (ament_cmake) in src/robot`` names another folder; ``.`` is the root.
 - Comments in files state the expected findings. Words in brackets must be the confidence or the rule of the finding:
 
       #include <std_msgs/msg/string.hpp>  // want "std_msgs is used"
       # want+1 [medium] "..."             (a finding in the next line; want-1 is for the previous line)
 
-- A block ``output`` is the expected output for the case, a block ``diff`` the expected changes of its fixes. Both are compared
-  exactly; ``pytest --bless`` rewrites them.
-- A block ``toml`` without a path has settings:
-  ``distro = "humble"``: the distribution, by default jazzy; a list has several; ``chosen = false``: the user did not choose it;
+- A block ``output`` is the expected output for the case, a block ``diff`` the expected changes of its fixes. Both are
+  compared exactly; ``pytest --bless`` rewrites them.
+- A block ``toml`` without a path has settings of the case:
+  ``distro = "humble"``: the distribution, by default jazzy; a list has several;
+  ``chosen = false``: the distribution counts as a default, not as chosen by the user;
   ``executable = ["scripts/a.py"]``: files with the executable bit;
-  ``underlay = "opt"``: a folder of the case that is an underlay. It needs a file COLCON_IGNORE.
+  ``underlay = "opt"``: a folder of the case that is an underlay. The folder must contain a file COLCON_IGNORE.
 """
 
 from __future__ import annotations
@@ -55,25 +56,25 @@ class Want(NamedTuple):
     path: str
     line: int
     text: str
-    """A part of its message."""
+    """A part of the message of the finding."""
     tags: frozenset[str]
     """Words in brackets: each must be the confidence of the finding or the name of its rule."""
 
     @property
     def written(self) -> str:
-        """The comment that expects the finding, such as ``want [medium] "is used"``."""
+        """The comment for the expected finding, such as ``want [medium] "is used"``."""
         tags = f"[{', '.join(sorted(self.tags))}] " if self.tags else ""
         return f'want {tags}"{self.text}"'
 
     def fits(self, issue: Issue) -> bool:
-        """Return whether ``issue`` is the expected finding."""
+        """Return whether ``issue`` is the finding that is expected."""
         finding = issue.finding
         place = (finding.span.path, finding.span.line) == (self.path, self.line)
         return place and self.text in finding.message and self.tags <= {str(finding.confidence), issue.rule.name}
 
 
 class Case(NamedTuple):
-    """A workspace, and the findings and outputs that are expected for it."""
+    """A small workspace, with the findings and outputs that are expected for it."""
 
     title: str
     source: Path
@@ -81,14 +82,14 @@ class Case(NamedTuple):
     output: str | None
     diff: str | None
     distros: tuple[str, ...]
-    """The distributions to check for."""
+    """The distributions of ROS for which the workspace is checked."""
     chosen: bool
-    """True if the user chose the distribution."""
+    """True if the distribution counts as chosen by the user, False if it counts as a default."""
     executable: frozenset[str]
     underlay: str
 
     def wants(self) -> list[Want]:
-        """Return the expected findings."""
+        """Return the findings that comments in the files expect."""
         return [
             Want(path, number + int(match["offset"] or 0), text, frozenset(re.findall(r"[\w-]+", match["tags"] or "")))
             for path, body in self.files.items()
@@ -102,7 +103,7 @@ class Case(NamedTuple):
 
 
 def read_cases(source: Path) -> Iterator[Case]:
-    """Yield the cases of a Markdown file. Raises AssertionError for a setting that does not exist."""
+    """Yield the cases in a Markdown file. Raises AssertionError for an unknown setting."""
     _, *parts = HEADING.split(source.read_text("utf-8"))
     for title, body in zip(parts[::2], parts[1::2], strict=True):
         files = dict(manifest(match) for match in PACKAGE.finditer(FENCE.sub("", body)))
@@ -140,7 +141,7 @@ def _settings(text: str) -> dict[str, Any]:
 
 
 def manifest(header: re.Match[str]) -> tuple[str, str]:
-    """Return path and text of the manifest that a line ``package NAME (TYPE) in FOLDER: TAG NAME, ...`` describes."""
+    """Return the path and the text of the manifest for a line ``package NAME (TYPE) in FOLDER: TAG NAME, ...``."""
     folder = header["folder"] or header["name"]
     depends = [depend.split() for depend in (header["depends"] or "").split(",") if depend.strip()]
     lines = [
@@ -156,7 +157,7 @@ def manifest(header: re.Match[str]) -> tuple[str, str]:
 
 
 def loader_of(tree: Tree, case: Case) -> Loader:
-    """Return a loader of the workspace of a case, which is read from ``tree``."""
+    """Return a loader of the workspace of ``case``. The files are read from ``tree``."""
     first, *others = [_distro_data(tree, case, distro) for distro in case.distros]
     return Loader(tree, ("",), first.target, knowledge=first.knowledge, underlays=first.underlays, others=others)
 
@@ -168,10 +169,10 @@ def _distro_data(tree: Tree, case: Case, distro: str) -> DistroData:
 
 
 def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
-    """Return the findings of a rule in the workspace of a case, which is read from ``tree``.
+    """Return the findings of a rule in the workspace of ``case``. The files are read from ``tree``.
 
-    Only this rule runs, except for a rule about suppressions, which needs the findings of all rules. Raises AssertionError
-    with the traceback if a rule crashes.
+    Only this rule runs, except for a rule about suppressions, which needs the findings of all rules. Raises
+    AssertionError with the traceback if a rule crashes.
     """
     loader = loader_of(tree, case)
     all_rules = registry.load()
@@ -185,7 +186,8 @@ def issues_of(tree: Tree, case: Case, rule: Rule) -> tuple[Issue, ...]:
 def differences(case: Case, rule: Rule) -> Iterator[str]:
     """Yield a line for each difference between the results of a rule and the expectations of a case.
 
-    Besides findings, output and diff it checks that fixes resolve their findings, and that the order of files has no effect.
+    Besides findings, output and diff, this checks that each fix resolves its finding, and that the order of files has no
+    effect.
     """
     tree = case.tree()
     issues = issues_of(tree, case, rule)
@@ -216,9 +218,9 @@ def differences(case: Case, rule: Rule) -> Iterator[str]:
 
 
 def bless(case: Case, rule: Rule) -> None:
-    """Rewrite the blocks ``output`` and ``diff`` of a case with the current results.
+    """Replace the blocks ``output`` and ``diff`` of a case by the current results.
 
-    Raises AssertionError if the case fails after that, for example because a ``want`` is not met: only a block is rewritten.
+    Raises AssertionError if the case still fails, for example because an expected finding is missing.
     """
     tree = case.tree()
     issues = issues_of(tree, case, rule)

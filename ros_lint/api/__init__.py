@@ -1,4 +1,4 @@
-"""Everything that a rule may import: types of rules, findings and the model, and namespaces of functions."""
+"""Everything that a rule may import: the types of rules, findings and facts, and modules with functions."""
 
 from ros_lint.analysis.finding import Confidence, Consequence, Finding, Fix, Related, Severity
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace

@@ -1,4 +1,4 @@
-"""Build scripts: what a package builds, installs and does not install."""
+"""Functions and types about build scripts: what a package builds, what it installs and what it fails to install."""
 
 from ros_lint.analysis.build.build_types import build_types
 from ros_lint.analysis.build.commands import (

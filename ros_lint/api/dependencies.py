@@ -1,4 +1,4 @@
-"""Dependencies: what a package needs, what it declares, and the edits that fix the manifest."""
+"""Functions and types about dependencies: what a package needs, what it declares, and edits of its manifest."""
 
 from ros_lint.analysis.dependencies.alternatives import standing_for_first
 from ros_lint.analysis.dependencies.declared_closure import declared_closure, provided_transitively

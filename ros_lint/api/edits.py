@@ -1,4 +1,4 @@
-"""Edits of package.xml, CMakeLists.txt, setup.py and setup.cfg."""
+"""Functions that create edits of package.xml, CMakeLists.txt, setup.py and setup.cfg for fixes."""
 
 from ros_lint.analysis.build import cmake_edits as cmake
 from ros_lint.collectors.manifest import edits as manifest

@@ -1,4 +1,4 @@
-"""Paths and kinds of files."""
+"""Functions about the paths and kinds of files."""
 
 from ros_lint.base.auxiliary_files import is_auxiliary, is_for_tests
 from ros_lint.base.paths import folders_of

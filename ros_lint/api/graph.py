@@ -1,4 +1,4 @@
-"""The dependency graph of a workspace and its cycles."""
+"""Functions and types about the dependency graph of a workspace and its cycles."""
 
 from ros_lint.analysis.graph.cycles import Cycle, cycles
 from ros_lint.analysis.graph.dependency_graph import Edge, Graph, Reason, dependency_graph

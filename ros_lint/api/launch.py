@@ -1,4 +1,4 @@
-"""Launch files: the programs they start, the files they include, and the configurations they set."""
+"""Functions and types about launch files: the programs they start, the files they include, the configurations they set."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Manifests: validation by the XML schema of their format."""
+"""Functions and types for the validation of manifests by the XML schema of their format."""
 
 from ros_lint.analysis.manifest_schema import named_schema, violations
 from ros_lint.collectors.manifest.schema.named import NamedSchema

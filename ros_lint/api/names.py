@@ -1,4 +1,4 @@
-"""Names: similar names, and the words of a suggestion."""
+"""Functions about names: find similar names, and suggest them in messages."""
 
 from ros_lint.base.suggestions import ask_if_meant, did_you_mean, nearest_names, of_same_kind, shorten_list, similar_names
 from ros_lint.collectors.interfaces import naming as interfaces

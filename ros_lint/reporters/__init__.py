@@ -1,4 +1,4 @@
-"""Output formats. A reporter is a pure function from a report to text: it reads and prints nothing."""
+"""Output formats. Each is a function that converts a report to text, and that reads no file and prints nothing."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from ros_lint.reporters.ansi import Style
 
 SourceTexts: TypeAlias = "Callable[[str], Text | None]"
-"""A function from the path of a file to its text, or to None if it cannot be read."""
+"""A function that returns the text of a file by its path, None if the file cannot be read."""
 Reporter: TypeAlias = "Callable[[Report, SourceTexts, Style], str]"
-"""A function from a report to its text in one format."""
+"""A function that returns a report as text in one format, given the texts of sources and the style."""
 
 
 def reporter(name: str) -> Reporter:
-    """Return the reporter of a format. Raises KeyError for an unknown name."""
+    """Return the function that writes the format ``name``. Raises KeyError for an unknown format."""
     if name not in FORMATS:
         raise KeyError(name)
     import importlib  # noqa: PLC0415  (the options of the command line need only the names of formats)

@@ -1,4 +1,4 @@
-"""Text for a terminal: colours, the width of characters, and escapes for control characters."""
+"""Text for a terminal: colours, links, the width of characters, and escapes for control characters."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from functools import lru_cache
 from typing import NamedTuple
 
 TAB = 4
-"""Number of columns of a tab."""
+"""Number of columns for which a tab is replaced by blanks."""
 
 
 class Style(NamedTuple):
-    """The output style: the abilities of the terminal and the wishes of the user, as the caller determines them."""
+    """The style of the output: what the terminal can show and what the user requests."""
 
     color: bool = False
-    """True if colours are used."""
+    """True if the output has colours."""
     ascii: bool = False
-    """True if only ASCII can be shown."""
+    """True if the output has only ASCII characters; others are escaped."""
     width: int = 120
-    """Width in columns. Longer source lines are shortened; messages are not."""
+    """Width in columns. Longer source lines are shortened, but messages are not."""
     fixes: bool = False
-    """True if the changes of each fix are shown."""
+    """True if the changes of each fix are shown as a diff."""
     summary: bool = True
     """True if a summary follows the findings."""
     rule_url: str = ""
-    """As in a report, if the terminal shows links (OSC 8); "" if it does not."""
+    """URL of the page of a rule, with ``{rule}`` in place of its name; "" if the terminal shows no links (OSC 8)."""
 
 
 _CODES = {
@@ -42,22 +42,22 @@ _PLAIN = re.compile(r"[ -~]*\Z")
 
 
 def paint(style: Style, color: str, text: str) -> str:
-    """Return a text in a colour (a key of ``_CODES``) if the style has colours, else unchanged."""
+    """Return a text in a colour (a key of ``_CODES``) if the style has colours, otherwise unchanged."""
     return f"\x1b[{_CODES[color]}m{text}\x1b[0m" if style.color and text else text
 
 
 def link(url: str, text: str) -> str:
-    """Return a text that links to a URL on a terminal; "" is no link."""
+    """Return a text as a link to a URL for a terminal (OSC 8). If ``url`` is "", return the text unchanged."""
     return f"\x1b]8;;{url}\x1b\\{text}\x1b]8;;\x1b\\" if url else text
 
 
 def safe(text: str, style: Style) -> str:
-    """Return a text with escapes for characters that move the cursor, change colours or the direction of writing."""
+    """Return a text with escapes in place of characters that move the cursor, or change colours or the direction of writing."""
     return text if _PLAIN.match(text) else "".join(glyph(character, style.ascii)[0] for character in text)
 
 
 def cells(line: str, style: Style) -> tuple[list[str], list[int]]:
-    """Return the text to show for each code point of a line, and the width of each in columns."""
+    """Return a list with the text to show for each code point of a line, and a list with the width of each in columns."""
     if _PLAIN.match(line):
         return list(line), [1] * len(line)
     pairs = [glyph(character, style.ascii) for character in line]
@@ -66,7 +66,7 @@ def cells(line: str, style: Style) -> tuple[list[str], list[int]]:
 
 @lru_cache(maxsize=1024)
 def glyph(character: str, only_ascii: bool) -> tuple[str, int]:
-    """Return the text to show for a code point, and its width in columns."""
+    """Return the text to show for a code point (the code point itself or an escape), and the width of the text in columns."""
     if " " <= character <= "~":
         return character, 1
     if character == "\t":

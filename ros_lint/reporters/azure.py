@@ -1,4 +1,7 @@
-"""The azure format: a logging command of Azure Pipelines for each finding, shown at the run and in its log."""
+"""The azure format: a logging command of Azure Pipelines for each finding.
+
+Azure shows them on the page of the run and in the log.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ if TYPE_CHECKING:
     from ros_lint.reporters import SourceTexts
 
 _TYPES = {Severity.ERROR: "error", Severity.WARNING: "warning"}
-"""The types of issues that Azure Pipelines has. Infos are printed as lines of the log."""
+"""Type of issue in Azure Pipelines by severity. There is none for infos, which are printed as plain lines of the log."""
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
@@ -27,7 +30,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
 
 
 def command(properties: dict[str, str | int], message: str) -> str:
-    """Return a command ``task.logissue`` with the escapes of the agent (azure-pipelines-task-lib, taskcommand.ts)."""
+    """Return a command ``task.logissue``, escaped as the agent expects (azure-pipelines-task-lib, taskcommand.ts)."""
     pairs = "".join(f"{key}={_property(str(value))};" for key, value in properties.items())
     return f"##vso[task.logissue {pairs}]{_data(message)}"
 
@@ -49,7 +52,7 @@ def _line(issue: Issue) -> str:
 
 
 def _without_command(line: str) -> str:
-    """Return a line of the log that contains no command, because the agent searches for commands in the whole line."""
+    """Return a line of the log in which the agent finds no command, because the agent searches the whole line for ``##vso[``."""
     return line.replace("##vso[", "## vso[")
 
 
@@ -58,7 +61,7 @@ def _place(span: Span) -> dict[str, str | int]:
 
 
 def _problems(report: Report) -> Iterator[str]:
-    """Yield a command for each problem because of which the run is incomplete."""
+    """Yield a command for each problem that makes the run incomplete, such as a crash of a rule."""
     for problem in problems(report):
         severe = problem.severity is Severity.ERROR
         place = _place(problem.span) if problem.span else {}

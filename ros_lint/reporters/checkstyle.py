@@ -1,4 +1,4 @@
-"""The checkstyle format: XML that many tools read, among them the plugin Warnings of Jenkins."""
+"""The checkstyle format: XML of the tool Checkstyle, which many tools read, such as the plugin Warnings of Jenkins."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
-    """Return XML with an element for each file, and in it one for each finding. Problems of the run are in ``package.xml``."""
+    """Return XML with an element for each file, which contains an element for each finding in the file.
+
+    Problems of the run without a place, such as a crash of a rule, are listed under ``package.xml``.
+    """
     files: dict[str, list[str]] = {}
     for problem in problems(report):
         path, line, column = problem.span[:3] if problem.span else (DEFAULT_PATH, 1, 1)

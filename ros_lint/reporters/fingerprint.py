@@ -1,7 +1,7 @@
-"""The hash by which GitHub recognizes a finding when lines above it change.
+"""The hash by which GitHub recognizes a finding after lines above it have changed.
 
 It is the ``primaryLocationLineHash`` of the CodeQL action (src/fingerprints.ts): a polynomial over the first hundred
-UTF-16 units from the start of the line, blanks left out. A number is appended to distinguish equal hashes of one file.
+UTF-16 units from the start of the line, without blanks. A number is appended to distinguish equal hashes in one file.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _END = b"\xff\xff"
 
 
 def line_hashes(source: Text, lines: Collection[int]) -> dict[int, str]:
-    """Return the hashes of the lines with these numbers, from 1, by number. Missing lines are left out."""
+    """Return the hash of each line of a file whose number is in ``lines``, by number (from 1). Missing lines are left out."""
     # The file is read as UTF-8 whatever its encoding, as other tools do that compute this hash.
     text = source.encode(source.text).decode("utf-8", "replace").removeprefix("\ufeff")
     text = re.sub(r"[ \t]+", "", re.sub(r"\r\n?", "\n", text))

@@ -1,4 +1,4 @@
-"""Code frames: the source lines of a finding, in which its places are underlined."""
+"""Code frames: the source lines of a finding, with its places underlined."""
 
 from __future__ import annotations
 
@@ -15,30 +15,31 @@ if TYPE_CHECKING:
 
 _ELLIPSIS = "..."
 _CONTEXT = 20
-"""Number of columns to show before a place in a shortened line."""
+"""Number of columns to show before a place in a line that is too long."""
 _MOST_CHARACTERS = 8_000
-"""Number of characters of a line that are considered. No screen shows so many."""
+"""Maximum number of characters of a line that are processed. No screen shows so many."""
 _FIRST_LINES, _LAST_LINES = 3, 2
-"""Number of first lines, and of last lines, that are shown of a place of many lines."""
+"""If a place has many lines, the numbers of its first lines and of its last lines that are shown."""
 _MIN_WIDTH = 40
-"""Minimum number of columns for source text."""
+"""Minimum width in columns for source text."""
 
 
 class Mark(NamedTuple):
-    """A place to underline."""
+    """A place to underline in a code frame."""
 
     span: Span
     label: str
-    """The text next to the underline, or ""."""
+    """Text next to the underline, "" if there is none."""
     color: str
     sign: str
-    """``^`` for the place of the finding, ``-`` for related places."""
+    """Character of the underline: ``^`` for the place of the finding, ``-`` for related places."""
 
 
 def frame(marks: Sequence[Mark], texts: SourceTexts, style: Style, most: int | None = None) -> tuple[list[str], str]:
-    """Return the rows of a frame, and the gutter (blanks) for further rows below it.
+    """Return the rows of a code frame, and the blanks left of its bar, with which further rows below it are aligned.
 
-    The frame shows the marked lines of the first ``most`` files; of marks in other files only place and label.
+    The frame shows the lines of the places in the first ``most`` files. For places in other files, it shows only path,
+    line and label. ``most`` None means all files.
     """
     files: dict[str, list[Mark]] = {}
     for mark in marks:
@@ -74,7 +75,7 @@ def _is_in(mark: Mark, source: Text) -> bool:
 
 
 class _MarkRange(NamedTuple):
-    """The range of a mark, limited to the lines of its file. Columns count from 0; the end is exclusive."""
+    """A place to underline, limited to the existing lines of its file. Columns count from 0; the end is exclusive."""
 
     line: int
     start: int
@@ -84,7 +85,7 @@ class _MarkRange(NamedTuple):
 
 
 class _File:
-    """Formats the source lines of one file in a code frame, in which the places of a finding are underlined."""
+    """Formats the source lines of one file for a code frame."""
 
     def __init__(self, source: Text, marks: Sequence[Mark], digits: int, style: Style) -> None:
         self._source = source
@@ -125,7 +126,7 @@ class _File:
         return sorted(numbers)
 
     def _line(self, number: int) -> Iterator[str]:
-        """Yield the rows of a line: the source, and a row for each place that begins or ends in it."""
+        """Yield the rows for a source line: the line, and a row for each place that begins or ends in it."""
         line = self._source.line(number)
         shown, widths = cells(line[:_MOST_CHARACTERS], self._style)
         beginning = [place for place in self._multi_line if place.line == number and not self._opens(place)]
@@ -144,7 +145,7 @@ class _File:
                 yield self._underline(place, number, view)
 
     def _around(self, line: str, start: int, end: int) -> _View:
-        """Return the part of a line to show around a range of its characters."""
+        """Return the part of a long line to show around the range of characters from ``start`` to ``end``."""
         skipped = max(start - _MOST_CHARACTERS // 2, 0) if len(line) > _MOST_CHARACTERS else 0
         shown, widths = cells(line[skipped : skipped + _MOST_CHARACTERS], self._style)
         view = _view(shown, widths, start - skipped, min(end - skipped, len(widths)), self._width)
@@ -163,9 +164,9 @@ class _File:
         return self._row("", "", self._paint(place, f"|{'_' * (view.column(start) + 1)}{sign}{label}"))
 
     def _side(self, number: int) -> str:
-        """Return the bar to the left of a source line in a place of several lines; blanks for other lines.
+        """Return the bar to the left of source line ``number`` if the line is in a place of several lines, otherwise blanks.
 
-        "" if no place has several lines.
+        Return "" if the file has no place of several lines.
         """
         for place in self._multi_line:
             if place.line < number <= place.end_line:
@@ -175,7 +176,7 @@ class _File:
         return "  " if self._multi_line else ""
 
     def _opens(self, place: _MarkRange) -> bool:
-        """Return whether a place is preceded only by blanks on its first line."""
+        """Return whether only blanks precede a place on its first line."""
         return not self._source.line(place.line)[: place.start].strip()
 
     def _row(self, number: str, side: str, text: str) -> str:
@@ -186,21 +187,21 @@ class _File:
 
 
 class _View(NamedTuple):
-    """The visible part of a line."""
+    """The part of a source line that is shown."""
 
     text: str
     columns: tuple[int, ...]
-    """The column in the shown text of each character and of the end of the line."""
+    """For each character of the line and for its end, the column in the shown text, from 0."""
     skipped: int = 0
-    """Number of characters at the start of the line that ``columns`` leaves out."""
+    """Number of characters at the start of the line that ``columns`` has no entries for."""
 
     def column(self, index: int) -> int:
-        """Return the column, in the shown text, of the character at ``index`` of the line."""
+        """Return the column in the shown text of the character at ``index`` of the line."""
         return self.columns[min(max(index - self.skipped, 0), len(self.columns) - 1)]
 
 
 def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, width: int) -> _View:
-    """Return the part of a line around the range ``start`` to ``end`` that fits into ``width`` columns."""
+    """Return the part of a line that contains the start of the range ``start`` to ``end`` and fits into ``width`` columns."""
     at = [0, *accumulate(widths)]
     if at[-1] <= width:
         return _View("".join(shown), tuple(at))
@@ -218,7 +219,7 @@ def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, wid
 
 
 def _extent(place: _MarkRange, number: int) -> tuple[int, int]:
-    """Return the range of characters to underline in line ``number``, which is the first or last line of a place."""
+    """Return the range of characters to underline in line ``number``, which is the first or the last line of a place."""
     if place.line == place.end_line:
         return place.start, place.end
     return (place.start, place.start + 1) if number == place.line else (max(place.end - 1, 0), place.end)

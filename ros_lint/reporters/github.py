@@ -1,4 +1,4 @@
-"""The github format: a workflow command of GitHub Actions for each finding, shown as an annotation."""
+"""The github format: a workflow command of GitHub Actions for each finding, which GitHub shows as an annotation."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ros_lint.reporters import SourceTexts
 
 _MOST_ANNOTATIONS = 10
-"""Number of annotations of each level that GitHub shows for a step of a workflow; the log has all of them."""
+"""Number of annotations of each level that GitHub shows for one step of a workflow. The log contains all of them."""
 _RELATED = 10
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
@@ -35,7 +35,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:
 
 
 def command(name: str, properties: dict[str, str | int], message: str) -> str:
-    """Return a workflow command with the escapes of the GitHub runner (actions/toolkit, command.ts)."""
+    """Return a workflow command, escaped as the GitHub runner expects (actions/toolkit, command.ts)."""
     pairs = ",".join(f"{key}={_property(str(value))}" for key, value in properties.items() if value != "")
     return f"::{name}{' ' if pairs else ''}{pairs}::{_data(message)}"
 
@@ -71,7 +71,7 @@ def _place(span: Span, texts: SourceTexts) -> dict[str, str | int]:
 
 
 def _problems(report: Report) -> Iterator[str]:
-    """Yield a workflow command for each problem because of which the run is incomplete."""
+    """Yield a workflow command for each problem that makes the run incomplete, such as a crash of a rule."""
     if not report.packages:
         yield command("error", {"title": "ros-lint"}, "no package found, so nothing was checked")
     for crash in report.crashes:
@@ -82,7 +82,7 @@ def _problems(report: Report) -> Iterator[str]:
 
 
 def _overflow(lines: list[str]) -> Iterator[str]:
-    """Yield a notice if GitHub does not show all annotations."""
+    """Yield a notice with the numbers of findings if there are more annotations than GitHub shows."""
     numbers = {name: sum(line.startswith(f"::{name} ") for line in lines) for name in _COMMANDS.values()}
     if max(numbers.values()) > _MOST_ANNOTATIONS:
         counts = and_list([count(number, name) for name, number in numbers.items() if number])

@@ -21,7 +21,7 @@ _LEVELS = {Severity.ERROR: "critical", Severity.WARNING: "major", Severity.INFO:
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
-    """Return a JSON list with an entry for each finding and for each problem because of which the run is incomplete."""
+    """Return a JSON list with an entry for each finding, and for each problem that makes the run incomplete."""
     return encode([*_findings(report), *_problems(report)], 1)
 
 
@@ -48,7 +48,7 @@ def _problems(report: Report) -> Iterator[dict[str, Any]]:
 
 
 _DEFAULT_PATH = "package.xml"
-"""The path of entries without a place, because GitLab requires a path."""
+"""Path for entries without a place, because GitLab requires a path."""
 
 
 def _entry(identity: str, name: str, description: str, severity: str, path: str, line: int) -> dict[str, Any]:

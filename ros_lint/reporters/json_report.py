@@ -1,4 +1,4 @@
-"""The json format, for programs: the whole report. docs/output.md and report.schema.json describe it."""
+"""The json format, for programs: the whole report. Its keys are described in docs/output.md and report.schema.json."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ros_lint.reporters.ansi import Style
 
 SCHEMA_VERSION = 1
-"""Increased when a key changes its meaning or is removed. New keys may be added at any time."""
+"""Version of the format. It increases when the meaning of a key changes or a key is removed, but not when a key is added."""
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
@@ -24,7 +24,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
 
 
 def document(report: Report) -> dict[str, Any]:
-    """Return the report as values of JSON."""
+    """Return the report as Python values for JSON."""
     return {
         "schema_version": SCHEMA_VERSION,
         "tool": "ros-lint",

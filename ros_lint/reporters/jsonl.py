@@ -1,4 +1,4 @@
-"""The jsonl format, for programs that read line by line: a JSON document for each finding, and one for the run."""
+"""The jsonl format, for programs that read line by line: a JSON object for each finding, and one for the run."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
-    """Return a line for each finding, with the type "finding", and a last line for the run, with the type "run"."""
+    """Return a line for each finding, with ``"type": "finding"``, and a last line for the run, with ``"type": "run"``."""
     run = document(report)
     findings = run.pop("findings")
     lines = [{"type": "finding", "schema_version": SCHEMA_VERSION, **finding} for finding in findings]

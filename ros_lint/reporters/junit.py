@@ -1,7 +1,8 @@
-"""The junit format, for test reports: ``colcon test-result``, GitLab, Jenkins and Azure Pipelines read it.
+"""The junit format, for test reports. It is read by ``colcon test-result``, GitLab, Jenkins and Azure Pipelines.
 
-A test case stands for one group of rules (ROS1xx, ROS2xx ...) in one package. It fails if the group has an error or a warning
-there. Infos do not fail it and are in its output. As in the files of ament, the root is a single ``testsuite``.
+A test case stands for a group of rules (ROS1xx, ROS2xx ...) in one package. It fails if the group has an error or a
+warning in the package. Infos do not fail it; they are listed in its output. As in the files of ament, the root is a
+single ``testsuite``.
 """
 
 from __future__ import annotations
@@ -21,11 +22,11 @@ if TYPE_CHECKING:
     from ros_lint.reporters.ansi import Style
 
 _GROUP_DIGITS = 2
-"""Number of last digits of a code that a group of rules leaves open."""
+"""Number of final digits of a rule's code that do not matter for the group of the rule."""
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
-    """Return a test suite with a test case for each package and group of rules, and one for each problem of the run."""
+    """Return a test suite with a test case for each package and group of rules, and one for each error of the run."""
     issues: dict[tuple[str, str], list[Issue]] = {}
     groups = sorted({_group(rule) for rule in report.rules})
     for package in report.package_names:

@@ -1,4 +1,4 @@
-"""The markdown format: a page for the summary of a GitHub workflow or a comment."""
+"""The markdown format: text for the summary of a GitHub workflow run or for a comment."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 _PLAIN = Style()
 _MOST_BYTES = 1_000_000
-"""Maximum size of the tables. GitHub rejects a summary of more than 1 MiB."""
+"""Maximum size of the tables in bytes, because GitHub rejects a summary of more than 1 MiB."""
 _HEAD = "| severity | place | finding | rule |\n|---|---|---|---|\n"
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
-    """Return Markdown: the result, a table of findings for each package, and what was hidden or not checked."""
+    """Return Markdown: the result, a table of findings for each package, and the lists of hidden findings and unchecked files."""
     parts = [f"## ros-lint\n\n{_text(summary(report, _PLAIN).partition(chr(10))[0])}\n", *_tables(report)]
     notes = [*(problem.message for problem in problems(report)), *limits(report)]
     if notes:
@@ -31,7 +31,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
 
 
 def _tables(report: Report) -> Iterator[str]:
-    """Yield a table for each package, packages with the most severe findings first, up to the size limit."""
+    """Yield a table for each package, up to the size limit. Packages with the most severe findings come first."""
     size = left_out = 0
     for package, issues in by_package(report.issues):
         table = _table(package, issues, report)
@@ -58,5 +58,5 @@ def _row(issue: Issue, report: Report) -> str:
 
 
 def _text(value: str) -> str:
-    """Return a text without markup: each sign with a meaning in Markdown or HTML is escaped."""
+    """Return a text in which each character with a meaning in Markdown or HTML is escaped."""
     return re.sub(r"[\\`*{}\[\]<>#|~&@!$^]|(?<![A-Za-z0-9])_|_(?![A-Za-z0-9])", r"\\\g<0>", safe(value, _PLAIN))

@@ -1,4 +1,4 @@
-"""A report with other paths, such as paths relative to the current folder."""
+"""Replace the paths in a report, e.g. by paths relative to the current folder."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def with_paths(report: Report, rename: Callable[[str], str]) -> Report:
-    """Return the report with the path of each place replaced by ``rename(path)``. Messages stay as they are."""
+    """Return the report with ``rename(path)`` in place of each path. Paths in messages are not changed."""
     return report._replace(
         issues=tuple([_issue(issue, rename) for issue in report.issues]),
         not_checked=tuple([_unread(entry, rename) for entry in report.not_checked]),

@@ -1,6 +1,6 @@
-"""The rdjson format: the Reviewdog Diagnostic Format, which reviewdog posts as comments on changes.
+"""The rdjson format: the Reviewdog Diagnostic Format. reviewdog posts its findings as comments in code review.
 
-It is described in ``proto/rdf`` of reviewdog. Its columns count bytes of UTF-8.
+The format is described in ``proto/rdf`` of reviewdog. Its columns count bytes of UTF-8.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
-    """Return JSON with a diagnostic for each finding and for each problem because of which the run is incomplete."""
+    """Return JSON with a diagnostic for each finding, and for each problem that makes the run incomplete."""
     texts = cache(texts)
     diagnostics = [_diagnostic(issue, report, texts) for issue in report.issues]
     for problem in problems(report):

@@ -1,7 +1,7 @@
 """The sarif format, for code review: SARIF 2.1.0 within the limits of GitHub code scanning.
 
-The same findings give the same bytes: no time, no random identifier, no absolute path. Suppressed findings are left
-out, because GitHub shows them as open.
+Equal findings give equal bytes, because the output contains no time, no random identifier and no absolute path.
+Suppressed findings are left out, because GitHub would show them as open.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ JsonObject = dict[str, Any]
 IssueGroup = tuple["Issue", ...]
 
 _RESULTS = 25_000
-"""Number of results of a run that GitHub accepts at most."""
+"""Maximum number of results of a run that GitHub accepts."""
 _RELATED = 100
-"""Number of locations of a result that GitHub shows."""
+"""Maximum number of related locations of a result that GitHub shows."""
 _LINKS = 10
-"""Number of related places to link to in a message."""
+"""Maximum number of links to related places in a message."""
 _CONTEXT = 1000
-"""Number of characters of the lines around a place to quote at most."""
+"""Maximum number of characters quoted from the lines around a place."""
 _ROOT = "%SRCROOT%"
 
 
@@ -96,7 +96,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
 
 
 def _groups(issues: Sequence[Issue]) -> list[IssueGroup]:
-    """Group the issues of one rule in one line, because GitHub shows them as one alert."""
+    """Return the issues in groups with the same rule and line, because GitHub shows such a group as one alert."""
     groups: dict[tuple[str, str, int], IssueGroup] = {}
     for issue in issues:
         span = issue.finding.span
@@ -117,7 +117,7 @@ def _severity(group: IssueGroup) -> int:
 
 
 def _hashes(groups: Sequence[IssueGroup], texts: SourceTexts) -> dict[tuple[str, int], str]:
-    """Return the hashes of the lines of the groups, by path and line."""
+    """Return the hash of the first line of each group, by path and line number. Unreadable files are left out."""
     lines: dict[str, set[int]] = {}
     for group in groups:
         span = group[0].finding.span
@@ -171,9 +171,9 @@ def _result(
 
 
 def _message(message: str, related: Sequence[tuple[str, Span]], repeated: int) -> str:
-    """Return the message with links to the related places, because GitHub shows only places with a link.
+    """Return the message with links to the related places, because GitHub shows only places to which a message links.
 
-    The first ``repeated`` places are places of further findings with this message.
+    The first ``repeated`` of the ``related`` places are those of further findings in the same line.
     """
     links = [f"[{_link(text)}]({number})" for number, (text, _) in enumerate(related[:_LINKS], 1)]
     parts = [_escape(sentence(message))]
@@ -213,7 +213,7 @@ def _location(span: Span) -> JsonObject:
 
 
 def _uri(path: str) -> str:
-    """Return a relative path as a URI reference."""
+    """Return a relative path as a URI reference, with percent-encoding."""
     return quote(to_bytes(path), safe="/!$&'()*+,;=@") or "."
 
 
@@ -227,9 +227,9 @@ def _region(span: Span) -> JsonObject:
 
 
 def _primary(span: Span, source: Text | None) -> JsonObject:
-    """Return the place of a result, shortened to its first line.
+    """Return the location of a result, shortened to its first line, with the source text.
 
-    In a pull request, GitHub skips places that include unchanged lines.
+    In a pull request, GitHub ignores locations that include unchanged lines.
     """
     if source is None or span.line > source.line_count:
         return _location(span.start())
@@ -243,7 +243,10 @@ def _primary(span: Span, source: Text | None) -> JsonObject:
 
 
 def _context(span: Span, source: Text) -> JsonObject:
-    """Return the region of a line with the lines before and after it; if they are long, a part of the line around the span."""
+    """Return the region of a line with the lines before and after it.
+
+    If they are long, return the part of the line around ``span``.
+    """
     first, last = max(span.line - 1, 1), min(span.line + 1, source.line_count)
     context = Span(span.path, first, 1, last, len(source.line(last)) + 1)
     text = source.slice(context)
@@ -277,7 +280,7 @@ def _fix(fix: Fix) -> JsonObject:
 
 
 def _notes(report: Report, codes: dict[str, int]) -> Iterator[JsonObject]:
-    """Yield the notifications: what was not checked, failed or is hidden."""
+    """Yield the notifications of the run: files that were not checked, crashes of rules, and hidden findings."""
     if not report.packages:
         yield _note("NoPackage", "error", "no package was found, so nothing was checked")
     for entry in report.not_checked:

@@ -1,4 +1,4 @@
-"""The descriptions of rules and of notifications in a SARIF file."""
+"""The descriptions of rules and notifications in the sarif format."""
 
 from __future__ import annotations
 
@@ -14,13 +14,14 @@ LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 _PROBLEMS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "recommendation"}
 _TAGS = {"1": "workspace", "2": "dependencies", "3": "build", "4": "install", "5": "launch", "9": "ros-lint"}
 _LONGEST = 1024
-"""Maximum length of a description that GitHub accepts."""
+"""Maximum length in characters of a description that GitHub accepts."""
 
 
 def descriptor(rule: Rule, index: int, url: str = "") -> dict[str, Any]:
     """Return the SARIF descriptor of a rule.
 
-    ``index`` is its position in the list of rules, from 0. ``url`` is the URL of its page, or "".
+    ``index`` is the position of the rule in the list of rules of the file, from 0. ``url`` is the URL of the rule's page,
+    or "".
     """
     summary = capital(rule.summary)
     markdown = rule.doc.strip()
@@ -43,14 +44,17 @@ def descriptor(rule: Rule, index: int, url: str = "") -> dict[str, Any]:
 
 
 def sentence(text: str) -> str:
-    """Return a message as a sentence with a full stop. A question is followed by a reference to the help."""
+    """Return a message with a full stop at its end.
+
+    After a question mark, a reference to the help of the rule is added instead.
+    """
     if text.endswith("?"):
         return f"{text} See the help of the rule."
     return text if text.endswith(".") else f"{text}."
 
 
 def capital(text: str) -> str:
-    """Return a text as a sentence with a capital letter. The text must not begin with a name, because a name keeps its case."""
+    """Return a text as a sentence with a capital letter. The text must not begin with a name, because a name must not change."""
     return sentence(f"{text[:1].upper()}{text[1:]}")
 
 
@@ -59,7 +63,7 @@ def _plain(markdown: str) -> str:
 
 
 def _first_paragraph(markdown: str) -> str:
-    """Return the first paragraph of a rule's documentation on one line, "" without one."""
+    """Return the first paragraph of a rule's documentation on one line, "" if there is no paragraph."""
     paragraphs = [part for part in re.split(r"\n\s*\n", markdown) if part.strip() and not part.lstrip().startswith("#")]
     text = " ".join(paragraphs[0].replace("`", "'").split()) if paragraphs else ""
     return sentence(text[: _LONGEST - 1].rstrip(":,;")) if text else ""
@@ -107,9 +111,12 @@ TOPICS = [
         "Nothing was checked. Pass the path of a workspace or package: a folder with a package.xml in it or below it.",
     ),
 ]
-"""The kinds of notifications."""
+"""The SARIF descriptors of all kinds of notifications."""
 
 
 def topic(name: str) -> dict[str, Any]:
-    """Return the SARIF reference, id and index, to the kind of notification ``name``. Raises StopIteration if there is none."""
+    """Return the SARIF reference to the kind of notification ``name``: its id and index.
+
+    Raises StopIteration for an unknown name.
+    """
     return next({"id": entry["id"], "index": index} for index, entry in enumerate(TOPICS) if entry["name"] == name)

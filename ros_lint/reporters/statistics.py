@@ -1,4 +1,4 @@
-"""The text of ``--statistics``: the number of findings of each rule, and the summary."""
+"""The output of ``--statistics``: the number of findings of each rule, and the summary."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
-    """Return one line for each rule and severity, the most frequent first, and a summary.
+    """Return a line for each pair of rule and severity, the most frequent pair first, and a summary.
 
     A line has the number of findings, the severity, the code and name of the rule, and the number of findings with a fix.
     """
@@ -31,7 +31,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
 
 
 def _table(rows: list[tuple[str, str, str, str, str]], style: Style) -> Iterator[str]:
-    """Yield the rows with aligned columns; the numbers are aligned to the right."""
+    """Yield the rows as lines with aligned columns. The numbers are right-aligned."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for number, severity, code, name, fixes in rows:
         level = paint(style, severity, severity) + " " * (widths[1] - len(severity))

@@ -1,4 +1,4 @@
-"""The summary at the end of text output: counts, hidden findings and what was not analysed."""
+"""The summary after the findings: the numbers of findings and hidden findings, and what was not analysed."""
 
 from __future__ import annotations
 
@@ -17,30 +17,30 @@ if TYPE_CHECKING:
     from ros_lint.workspace.target import UnreadFile
 
 _LISTED = 10
-"""Number of entries of a list to show; the json format has all."""
+"""Maximum number of entries of a list that are shown; the json format has all of them."""
 
 _NAMED = 5
-"""Number of packages or rules to name in a sentence; the others are only counted."""
+"""Maximum number of packages or rules that a sentence names; others are only counted."""
 
 _FEW = 10
-"""Number of findings up to which no table of rules is printed."""
+"""Number of findings up to which the numbers for each rule are not printed."""
 
 
 DEFAULT_PATH = "package.xml"
-"""The path of problems without a place, in formats that require a path."""
+"""Path for problems without a place, in formats that require a path."""
 
 
 class Problem(NamedTuple):
-    """A reason why a run is incomplete."""
+    """A reason why a run is incomplete, e.g. a crash of a rule."""
 
     severity: Severity
-    """An error if the exit code is 2, else info."""
+    """ERROR if the problem makes the exit code 2, else INFO."""
     message: str
     span: Span | None = None
 
 
 def problems(report: Report) -> Iterator[Problem]:
-    """Yield the problems because of which a run is incomplete."""
+    """Yield the problems that make a run incomplete: no package, crashes of rules, and files that were not checked."""
     if not report.packages:
         yield Problem(Severity.ERROR, "no package found, so nothing was checked")
     for crash in report.crashes:
@@ -50,9 +50,9 @@ def problems(report: Report) -> Iterator[Problem]:
 
 
 def by_package(issues: Iterable[Issue]) -> list[tuple[str, list[Issue]]]:
-    """Return the issues by package: errors first, then warnings, then infos.
+    """Return pairs of a package and its issues: errors first, then warnings, then infos.
 
-    Packages come in the order of their gravest issues, packages with issues of one severity in the order of their places.
+    Packages are sorted by the severity of their most severe issue, then by its place.
     """
     packages: dict[str, list[Issue]] = {}
     for issue in sorted(issues, key=lambda issue: -issue.severity):
@@ -61,7 +61,7 @@ def by_package(issues: Iterable[Issue]) -> list[tuple[str, list[Issue]]]:
 
 
 def summary(report: Report, style: Style) -> str:
-    """Return the summary: one or more lines; "" if the style has none."""
+    """Return the summary as one or more lines; "" if ``style`` has no summary."""
     return "".join(f"{line}\n" for line in _lines(report, style)) if style.summary else ""
 
 
@@ -71,14 +71,17 @@ def count(number: int, noun: str) -> str:
 
 
 def name_or_count(names: Sequence[str], noun: str = "packages") -> str:
-    """Return names as a list; if there are many, the number and the first of them: "12 packages (talker, listener ...)"."""
+    """Return names as a list.
+
+    If there are many, return their number and the first of them: "12 packages (talker, listener ...)".
+    """
     if len(names) <= _NAMED:
         return and_list(names)
     return f"{len(names)} {noun} ({', '.join(names[:_NAMED])} ...)"
 
 
 def limits(report: Report) -> Iterator[str]:
-    """Yield sentences, without full stop, about the distribution, hidden findings and what was not fully analysed."""
+    """Yield sentences, without full stop, about other distributions of the repository, hidden findings and analysis limits."""
     if proposed := _proposed_distros(report):
         yield proposed
     more: Counter[str] = Counter()
@@ -109,7 +112,10 @@ def limits(report: Report) -> Iterator[str]:
 
 
 def _proposed_distros(report: Report) -> str:
-    """Return a sentence about the distributions that the repository builds for, "" if the run was for one of them."""
+    """Return a sentence that proposes the distributions that the repository is built for.
+
+    Return "" if the run was for one of these distributions, or if no file of the repository names a distribution.
+    """
     if report.target.distro in [named.distro for named in report.named_distros]:
         return ""
     named = [named for named in report.named_distros if named.indexed]
@@ -120,12 +126,12 @@ def _proposed_distros(report: Report) -> str:
 
 
 def hidden_findings(hidden: HiddenCount) -> str:
-    """Return the number of hidden findings with the reason: "2 findings suppressed by comments"."""
+    """Return the number of hidden findings and the reason why they are hidden: "2 findings suppressed by comments"."""
     return f"{count(hidden.count, 'finding')} {hidden.reason}"
 
 
 def unread_file(entry: UnreadFile) -> str:
-    """Return what was not checked, with its place and the reason."""
+    """Return a text about an unchecked file or part of a file: its place, and the reason why it was not checked."""
     span = entry.span
     if span is None or span.path == entry.what:
         return f"{entry.what}: {entry.reason}"
@@ -133,7 +139,10 @@ def unread_file(entry: UnreadFile) -> str:
 
 
 def crashed(crash: Crash) -> str:
-    """Return the rule, its plugin, the package and the error of a crash: "unused-dependency for talker: KeyError: 'a'"."""
+    """Return a text about a crash: the rule, its plugin, the package and the error.
+
+    "unused-dependency for talker: KeyError: 'a'".
+    """
     plugin = f" of the plugin '{crash.plugin}'" if crash.plugin else ""
     return f"{crash.rule}{plugin}{f' for {crash.package}' if crash.package else ''}: {crash.error}"
 
@@ -160,7 +169,7 @@ def _lines(report: Report, style: Style) -> Iterator[str]:
 
 
 def _fault(report: Report) -> str:
-    """Return the sentence that says whose bugs the crashes are."""
+    """Return the sentence that asks to report the crashes: to the authors of ros-lint or of the plugins."""
     plugins = dict.fromkeys(crash.plugin for crash in report.crashes)
     owners = [f"the plugin '{plugin}'" if plugin else f"ros-lint {report.version}" for plugin in plugins]
     addressee = "" if "" in plugins else " to its author" if len(owners) == 1 else " to their authors"
@@ -171,7 +180,7 @@ _TITLES = {Severity.ERROR: "Errors", Severity.WARNING: "Warnings", Severity.INFO
 
 
 def _by_rule(report: Report, style: Style) -> Iterator[str]:
-    """Yield the numbers of findings of each rule, a line for each severity, if there are many findings."""
+    """Yield a line for each severity with the number of findings of each rule. Yield nothing if there are few findings."""
     if len(report.issues) <= _FEW:
         return
     for severity, title in _TITLES.items():

@@ -1,4 +1,4 @@
-"""The text format, for people: findings by package with code frames, and what was not analysed."""
+"""The text format, for people: findings by package with their source lines, and a summary."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 
 _PLAIN = Style()
 _RELATED = 8
-"""Number of related places to show; the json format has all."""
+"""Maximum number of related places shown of a finding; the json format has all of them."""
 _FILES = 2
-"""Number of files to show lines of, except for cycles, of which all steps are shown."""
+"""Maximum number of files whose source lines are shown for a finding. For a cycle, the lines of all steps are shown."""
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:
-    """Return the report as text: packages with errors first; in a package errors, then warnings, then infos."""
+    """Return the report as text. Packages with errors come first; in a package errors, then warnings, then infos."""
     texts = cache(texts)
     parts: list[str] = []
     for package, issues in by_package(report.issues):
@@ -37,13 +37,16 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:
 
 
 def render_issues(issues: Iterable[Issue], texts: SourceTexts, style: Style = _PLAIN) -> str:
-    """Return issues as text, separated by empty lines. Infos of one rule and package are one block."""
+    """Return issues as text, separated by empty lines. All infos of one rule in one package form one block."""
     blocks = (_infos(block, texts, style) if len(block) > 1 else _issue(block[0], texts, style) for block in _blocks(issues))
     return "\n".join("".join(f"{row}\n" for row in block) for block in blocks)
 
 
 def _blocks(issues: Iterable[Issue]) -> Iterable[list[Issue]]:
-    """Return the issues in blocks, in order. The infos of one rule and package are one block, at the first of these infos."""
+    """Return the issues in blocks, in order. Infos of one rule in one package form a block at the place of the first of them.
+
+    Each other issue is a block of its own.
+    """
     blocks: dict[object, list[Issue]] = {}
     for issue in issues:
         is_info = issue.severity is Severity.INFO
@@ -52,7 +55,7 @@ def _blocks(issues: Iterable[Issue]) -> Iterable[list[Issue]]:
 
 
 def _infos(issues: Sequence[Issue], texts: SourceTexts, style: Style) -> Iterator[str]:
-    """Yield the rows of a block of infos: the rule, a line for each info, and the options that apply their fixes."""
+    """Yield the rows of a block of infos: the rule, a line for each info, and the options that apply the fixes."""
     rule = issues[0].rule
     title = f"{len(issues)} findings; expected: {rule.summary}"
     yield f"{_head(issues[0], style)}: {paint(style, 'bold', title)}"
@@ -70,7 +73,7 @@ def _infos(issues: Sequence[Issue], texts: SourceTexts, style: Style) -> Iterato
 
 
 _HOW_TO_FIX = {True: "--fix", False: "--fix --unsafe-fixes, may change behaviour"}
-"""The options that apply a fix, by whether it is safe."""
+"""The command-line options that apply a fix: for a safe fix (True) and for an unsafe fix (False)."""
 
 
 def _head(issue: Issue, style: Style) -> str:
@@ -109,7 +112,7 @@ def _issue(issue: Issue, texts: SourceTexts, style: Style) -> list[str]:
 
 
 def _explanation(explained: Sequence[ExplainedFinding]) -> str:
-    """Return which findings an issue explains: "explains 1 finding of undeclared-dependency: 'launch'"."""
+    """Return a text about the hidden findings that an issue explains: "explains 1 finding of undeclared-dependency: 'launch'"."""
     subjects: dict[str, list[str]] = {}
     for finding in explained:
         subjects.setdefault(finding.rule, []).append(finding.subject)
@@ -119,7 +122,10 @@ def _explanation(explained: Sequence[ExplainedFinding]) -> str:
 
 
 def _preview(fixes: Sequence[Fix], texts: SourceTexts, style: Style, gutter: str) -> Iterator[str]:
-    """Yield the changes of fixes as a diff below a frame. ``gutter`` are the blanks at the left of the frame."""
+    """Yield the changes of fixes as a diff, in rows below a code frame.
+
+    ``gutter`` has the blanks left of the bar of the frame.
+    """
     from ros_lint.base.diff import unified  # noqa: PLC0415
     from ros_lint.engine.edits import EditError, apply  # noqa: PLC0415  (only for diffs)
 

@@ -1,4 +1,4 @@
-"""The number of columns that a character takes on a terminal, independent of the running Python's version of Unicode.
+"""The number of columns that a character takes on a terminal, independent of the Unicode version of the running Python.
 
 Source: DerivedGeneralCategory.txt and EastAsianWidth.txt of Unicode 15.1.0.
 """
@@ -49,7 +49,7 @@ fe30-fe6b ff01-ff60 ffe0-ffe6 16fe0-16fe3 17000-1b2fb 1f004 1f0cf 1f18e 1f191-1f
 
 
 def columns(character: str) -> int | None:
-    """Return how many columns a character outside ASCII takes; None for a character that must be shown as an escape."""
+    """Return how many columns a non-ASCII character takes: 0, 1 or 2; None for a character that must be shown as an escape."""
     starts, ends, widths = _table()
     code = ord(character)
     index = bisect_right(starts, code) - 1
@@ -58,7 +58,7 @@ def columns(character: str) -> int | None:
 
 @cache
 def _table() -> tuple[list[int], list[int], list[int | None]]:
-    """Return where ranges of characters start and end, in order, and how wide they are."""
+    """Return three lists for the ranges of special characters, in order: first characters, last characters, and widths."""
     rows: list[tuple[int, int, int | None]] = []
     for text, width in ((_HIDDEN, None), (_JOINING, 0), (_WIDE, 2)):
         for entry in text.split():

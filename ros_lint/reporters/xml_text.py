@@ -1,4 +1,4 @@
-"""XML that every parser accepts: tags with escaped attributes, and escaped text."""
+"""Write XML that every parser accepts: tags with escaped attributes, and escaped text."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from ros_lint.reporters.ansi import Style, safe
 
 
 def start(tag: str, **attributes: str | int) -> str:
-    """Return a start tag. Characters that XML cannot represent are shown as escapes, as on a terminal."""
+    """Return a start tag. Characters that XML cannot represent become visible escapes, such as a backslash with a code."""
     return f"<{tag}{_attributes(attributes)}>"
 
 
 def element(tag: str, **attributes: str | int) -> str:
-    """Return an empty element and a line feed."""
+    """Return an empty element, followed by a line feed."""
     return f"<{tag}{_attributes(attributes)}/>\n"
 
 
 def text(value: str) -> str:
-    """Return escaped text of one or more lines."""
+    """Return a text escaped for XML. It may have several lines."""
     return "\n".join(escape(_legal(line), quote=False) for line in value.split("\n"))
 
 

@@ -1,4 +1,4 @@
-"""The html format: a report as one page that needs no other file and no network. Only the filters need JavaScript."""
+"""The html format: a report as one page that needs no other file and no network. Only its filters need JavaScript."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ if TYPE_CHECKING:
 
 _PLAIN = Style(summary=True)
 _CONTEXT = 2
-"""Number of lines to show before and after the place of a finding."""
+"""Number of lines shown before and after the place of a finding."""
 _MOST_LINES = 12
-"""Number of lines of a place to show."""
+"""Maximum number of lines shown of a place."""
 _MOST_CHARACTERS = 400
-"""Number of characters of a line to show."""
+"""Maximum number of characters shown of a line."""
 _RELATED = 8
-"""Number of related places to show; the json format has all."""
+"""Maximum number of related places shown of a finding; the json format has all of them."""
 
 
 def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: ARG001  (the signature of reporters)
-    """Return the page: findings by package, with the lines of their places, and the summary of the run."""
+    """Return the page: the findings by package, with the source lines of their places, and the summary of the run."""
     texts = cache(texts)
     title = report.workspace or "the workspace"
     parts = {
@@ -45,7 +45,7 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
 
 
 def _escaped(text: str) -> str:
-    """Return a text for HTML. Characters that a terminal would not show as they are become visible escapes."""
+    """Return a text escaped for HTML. Characters that a terminal would not show unchanged become visible escapes."""
     import html  # noqa: PLC0415
 
     return html.escape(safe(text, _PLAIN))
@@ -62,7 +62,7 @@ def _filters(issues: Iterable[Issue]) -> Iterator[str]:
 
 
 def _choice(name: str, values: Iterable[str], order: Iterable[str]) -> Iterator[str]:
-    """Yield the lines of a select element with the values that occur, each with its number."""
+    """Yield the lines of a select element. Its options are the occurring values in the given order, each with its number."""
     numbers = Counter(values)
     yield f'<label>{name.capitalize()} <select name="{name}"><option value="">all</option>'
     for value in order:
@@ -113,7 +113,7 @@ def _issue(issue: Issue, texts: SourceTexts) -> Iterator[str]:
 
 
 def _frame(span: Span, texts: SourceTexts) -> Iterator[str]:
-    """Yield the lines around a place, in which the place is marked; nothing if the file cannot be read."""
+    """Yield the source lines around a place, with the place highlighted; nothing if the file cannot be read."""
     text = texts(span.path)
     if text is None or not 0 < span.line <= text.line_count or span == span.start():
         return
