@@ -250,7 +250,8 @@ def test_imports_are_mentions() -> None:
         ("scripts=['none']", [("missing-file", "'none' does not exist", "'none'")]),
         (
             "entry_points={'console_scripts': ['talker pkg.node:main']}",
-            [("entry-point-form", "'talker pkg.node:main' is not of the form 'name = module:function'",
+            [("entry-point-form", "'talker pkg.node:main' is not of the form 'name = module:function'; "
+                    "write it in this form",
               "'talker pkg.node:main'")],
         ),
         ("data_files=[('share/pkg', ['../outside.txt'])]", []),

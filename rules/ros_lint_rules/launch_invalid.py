@@ -128,8 +128,11 @@ def _message(problem: Problem) -> str:
 
 
 _REMEDIES = {
+    "conditions": "; keep only one of them",
     "missing-argument": "; add it",
     "missing-attribute": "; add it",
+    "missing-child": "; add one",
+    "quotes": "; close it",
     "too-many-arguments": "; pass the other values as keyword arguments",
     "undefined-name": "; define or import it",
     "unexpected-attribute": "; correct or remove it",
@@ -137,6 +140,7 @@ _REMEDIES = {
     "unexpected-keyword": "; correct or remove it",
     "unknown-substitution": "; correct the name",
     "unknown-tag": "; correct the name, or remove it",
+    "wrong-type": "; correct the value",
 }
 """Remedies for problems whose message contains none, by the kind of the problem."""
 

@@ -121,7 +121,7 @@ def _base(plugin: PluginFile, entry: PluginClass, macros: Sequence[Registration]
     """Yield a finding if every registration of a plugin has a base class other than the class in the description."""
     if all(_differ(entry.base, macro.base) for macro in macros):
         yield Finding(
-            f"'{entry.type}' is described as '{entry.base}', but registered as '{macros[0].base}'; "
+            f"the plugin '{entry.type}' is described with the base class '{entry.base}', but registered with '{macros[0].base}'; "
             "write the same base class in both places",
             entry.span,
             f"{plugin.path}#{entry.type}",

@@ -75,7 +75,7 @@ def _uninstalled(package: Package, plugins: build.Plugins) -> Iterator[Finding]:
         if any(entry.type in lacking for library in plugin.libraries for entry in library.classes):
             yield Finding(
                 f"'{plugin.path}' is not exported, so its plugins are not found; "
-                f"add {build.EXPORTING_PLUGINS}(... {plugin.path})",
+                f"add {build.EXPORTING_PLUGINS}(<package of the base class> {plugin.path})",
                 plugin.span,
                 plugin.path,
                 fix=_export(package, plugin),
@@ -97,8 +97,8 @@ def _undescribed(package: Package, registered: Sequence[Registration]) -> Iterat
         library = build.library_registering(package, macro)
         if library and library not in needed:
             yield Finding(
-                f"'{macro.name}' is registered, but no exported plugin description lists it, so loaders do not find it; "
-                "add it to a description",
+                f"the plugin '{macro.name}' is registered, but no exported plugin description lists it, so loaders do not find "
+                "it; add it to a description",
                 macro.span,
                 macro.name,
                 first_related(Related("this description is exported", call.span(1)) for call in calls),
@@ -122,13 +122,19 @@ def _unexported(package: Package, workspace: Workspace, registered: Sequence[Reg
     files = package.built.files.plugin_files
     plugin = next((p for p in files if any(c.type in types for library in p.libraries for c in library.classes)), None)
     if plugin is None and (base := _unloaded_base(registered, workspace)):
-        message = f"'{first.name}' is registered, but nothing loads plugins of '{base}'; remove the macro or export a description"
+        message = (
+            f"the plugin '{first.name}' is registered, but nothing loads plugins of '{base}'; remove PLUGINLIB_EXPORT_CLASS, "
+            "or export a plugin description"
+        )
         return Finding(message, first.span, "pluginlib", related, severity=Severity.INFO)
     remedy = (
-        f"{build.EXPORTING_PLUGINS}(... {plugin.path})" if plugin else f"a plugin description and {build.EXPORTING_PLUGINS}()"
+        f"{build.EXPORTING_PLUGINS}(<package of the base class> {plugin.path})"
+        if plugin
+        else f"a plugin description and {build.EXPORTING_PLUGINS}()"
     )
     return Finding(
-        f"'{first.name}' is registered, but no plugin description is exported, so loaders do not find it; add {remedy}",
+        f"the plugin '{first.name}' is registered, but no plugin description is exported, so loaders do not find it; "
+        f"add {remedy}",
         first.span,
         plugin.path if plugin else "pluginlib",
         related + ((Related("described here", plugin.span),) if plugin else ()),

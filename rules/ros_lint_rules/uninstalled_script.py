@@ -84,7 +84,7 @@ def _of_setup(package: Package) -> Iterator[Finding]:
         if file.run is not None and file.main:
             yield Finding(
                 f"setup.py does not install an executable for the program '{file.path}', so ros2 run does not find it; "
-                "add an entry point",
+                "add an entry point to console_scripts",
                 package.start_of(file.path),
                 file.path,
                 (Related("started here", file.run),),

@@ -108,7 +108,7 @@ def _unlinked(
         places = [Related(f"'{target.name}' is built here", target.span)]
         places += [Related(f"also {use.what}", use.span) for use in others]
         yield Finding(
-            f"'{target.name}' includes this header, but does not link '{name}', directly or indirectly; add {remedy}",
+            f"the target '{target.name}' includes this header, but does not link '{name}', directly or indirectly; add {remedy}",
             first.span,
             name,
             tuple(places),

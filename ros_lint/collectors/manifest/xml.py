@@ -375,7 +375,9 @@ def _explain(text: str, code: int, at: int) -> Fault:
     if code == errors[expat.errors.XML_ERROR_NO_ELEMENTS]:
         if not text.strip():
             return Fault("invalid-xml", "the file is empty", 0, 0)
-        message = f"the file ends inside {_still_open(text)}" if "<" in text else "the file contains no element"
+        element = _still_open(text) if "<" in text else ""
+        closing = f"the file ends inside {element}; close this element"
+        message = closing if element.startswith("<") else "the file contains no element"
     elif code in (errors[expat.errors.XML_ERROR_UNCLOSED_TOKEN], errors[expat.errors.XML_ERROR_UNCLOSED_CDATA_SECTION]):
         if not text.startswith("<", at):
             start = max(text.rfind("<![CDATA[", 0, at), 0)

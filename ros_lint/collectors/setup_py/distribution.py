@@ -258,7 +258,12 @@ class Distribution:
         match = _ENTRY.match(line)
         if match is None:
             entry = line.strip()
-            self._problem("entry-point-form", f"'{entry}' is not of the form 'name = module:function'", value, entry.split()[0])
+            self._problem(
+                "entry-point-form",
+                f"'{entry}' is not of the form 'name = module:function'; write it in this form",
+                value,
+                entry.split()[0],
+            )
             return
         name, target = match[1], match[2]
         self.entry_points.append(EntryPoint(group, name, target, self._place(value, self._context.call)))
