@@ -68,7 +68,8 @@ class Codec(Generic[T]):
 class _Writer:
     """Collects the columns of the encoded values.
 
-    A column of str has the numbers of the texts, because most texts occur several times.
+    Each distinct str is stored once, because most texts occur several times. A column of str has the numbers of the
+    texts.
     """
 
     def __init__(self) -> None:

@@ -84,7 +84,10 @@ def _loader(*, fast: bool) -> Any:
     import yaml  # noqa: PLC0415
 
     class LimitedLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader) if fast else yaml.SafeLoader):  # type: ignore[misc]
-        """A class of its own, because a constructor added to PyYAML's class would affect all users of PyYAML in the process."""
+        """The loader that limits integers.
+
+        It is a subclass, because a constructor added to PyYAML's class would affect all its users.
+        """
 
     def integer(loader: Any, node: yaml.ScalarNode) -> int:
         value: int = loader.construct_yaml_int(node)

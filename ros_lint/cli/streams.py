@@ -18,7 +18,7 @@ class OutputError(Exception):
 
 
 class _Output(io.RawIOBase):
-    """A stream for standard output that raises OutputError, because an OSError does not tell which file failed."""
+    """A stream for standard output that raises OutputError, because an OSError does not show which file failed."""
 
     def __init__(self, raw: io.RawIOBase) -> None:
         self._raw = raw

@@ -19,7 +19,7 @@ from ros_lint.engine.report import UNSURE, HiddenCount, Issue, Report
 from ros_lint.errors import UserError
 
 FindingKey = tuple[str, str, str]
-"""The name of the rule, the package and the subject of a finding."""
+"""The name of the rule, the package and the subject of a finding. The subject is what the finding is about, e.g. a dependency."""
 
 
 _MOST_BYTES = 64 << 20

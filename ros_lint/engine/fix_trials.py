@@ -45,7 +45,7 @@ class Trial(NamedTuple):
         return self._counts(self.issues)
 
     def serious_counts(self) -> Counter[DistroIdentity]:
-        """Return the number of serious issues for each pair of a distribution and an identity."""
+        """Return the number of :attr:`serious` issues for each pair of a distribution and an identity."""
         return self._counts(self.serious)
 
     def _counts(self, issues: Iterable[Issue]) -> Counter[DistroIdentity]:
@@ -104,7 +104,7 @@ class FixTrials:
         return b"".join(unified_bytes(path, self._loader.pinned.get(path), data) for path, data in sorted(changed.items()))
 
     def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
-        """Return the issues to show that have a fix of the selected kind which edits only files that may be changed.
+        """Return the issues to show whose fixes can be applied: of the selected kind, and only in files that may be changed.
 
         Spans of edits are valid only for one version of a file. Therefore the loader keeps the bytes of the files to
         edit, and the workspace is checked again with these bytes.

@@ -62,9 +62,9 @@ class PluginClass(NamedTuple):
     name: str
     """Name by which ``pluginlib::ClassLoader`` finds the class."""
     type: str
-    """C++ type of the class without blanks and without a leading ``::``, in the form of ``Registration.name``."""
+    """C++ type of the class without blanks and without a leading ``::``."""
     base: str
-    """C++ type of the base class, in the form of ``type``."""
+    """C++ type of the base class without blanks and without a leading ``::``."""
     span: Span
     """Place of the type."""
 

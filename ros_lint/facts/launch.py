@@ -110,7 +110,10 @@ class LaunchAction(NamedTuple):
     unknown parameters.
     """
     remappings: tuple[tuple[LaunchValue, LaunchValue], ...] = ()
-    """Remappings of a node or component: pairs of old and new name. One pair that is not plain stands for all unknown ones."""
+    """Remappings of a node or component: pairs of old and new name.
+
+    All unknown remappings are represented by one pair whose texts are not plain (``launch.is_plain``).
+    """
     conditions: tuple[LaunchCondition, ...] = ()
     """Conditions of the action. The action runs only if all of them hold."""
     children: tuple[LaunchAction, ...] = ()
@@ -209,7 +212,10 @@ class LaunchFile(NamedTuple):
     Empty if the file changes ``sys.path``.
     """
     configurations_read: tuple[str, ...] = ()
-    """Names of the launch configurations that the file reads, sorted. A name that is not plain stands for any unknown name."""
+    """Names of the launch configurations that the file reads, sorted.
+
+    A name that is not plain (``launch.is_plain``) means that the file may read further, unknown configurations.
+    """
     missing_inputs: tuple[str, ...] = ()
     """Inputs of a Python launch file that did not exist when ros-lint interpreted the file, sorted.
 

@@ -59,7 +59,7 @@ class Suppression(NamedTuple):
 
 
 class Unused(NamedTuple):
-    """Names of rules in a suppression that have no effect, because none of their findings are at its place."""
+    """Names of rules in a suppression comment that have no effect, because the rules have no finding in the suppressed lines."""
 
     suppression: Suppression
     """The suppression comment."""
@@ -81,10 +81,7 @@ class UnknownSelector(NamedTuple):
 
 
 def lines_of(span: Span) -> tuple[int, int]:
-    """Return the first and the last line of a span.
-
-    A span that ends before the first column of a line does not include that line.
-    """
+    """Return the first and the last line of a span. If the span ends at the start of a line, this line is not included."""
     return span.line, span.end_line - 1 if span.end_column == 1 and span.end_line > span.line else span.end_line
 
 
@@ -92,7 +89,7 @@ class SuppressionUse(NamedTuple):
     """The suppression comments that have no effect, or that contain names without effect."""
 
     unused: tuple[Unused, ...]
-    """Suppressions with names of rules that reported no finding at the place."""
+    """Suppressions with names of rules that reported no finding in the suppressed lines."""
     unknown: tuple[UnknownSelector, ...]
     """Suppressions with names that no rule has."""
     malformed: tuple[Suppression, ...]

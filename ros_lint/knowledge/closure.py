@@ -78,7 +78,7 @@ class Reach:
         return Closure(self, bits)
 
     def closure_without(self, names: Iterable[str], changed: str, removed: Container[str]) -> Closure:
-        """Return the closure of names as if ``changed`` did not directly provide the names in ``removed``."""
+        """Return the closure of ``names`` as if the package ``changed`` did not depend directly on the names in ``removed``."""
         stack = list(names)
         closure = self.closure(stack)
         if changed not in closure:

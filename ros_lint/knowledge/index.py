@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 KINDS = "bteuxsd"
-"""Letters of the dependencies build, buildtool, build_export, buildtool_export, exec, test and doc, in the order of a field."""
+"""Letters of dependency kinds in their order in a field: build, buildtool, build_export, buildtool_export, exec, test, doc."""
 
 RUNTIME = frozenset("eux")
 """Letters of the dependency kinds that also apply to the dependents of a package: build_export, buildtool_export and exec."""
@@ -182,7 +182,10 @@ class Index(Entries[Released]):
         return kinds_of
 
     def count_providers(self, name: str, most: int) -> int:
-        """Return how many packages provide a name directly or indirectly. Counting stops when it exceeds ``most``."""
+        """Return how many packages depend on ``name``, directly or indirectly, at run time or by export.
+
+        Counting stops when the number exceeds ``most``.
+        """
         providers = {name}
         queue = [name]
         for provided in queue:
@@ -203,7 +206,7 @@ class Index(Entries[Released]):
         return providers
 
     def closure(self, names: Iterable[str]) -> Closure:
-        """Return the closure of ``names``: with all their direct and indirect run-time and exported dependencies."""
+        """Return ``names`` together with all their direct and indirect run-time and exported dependencies."""
         return self._reach.closure(names)
 
     def runtime(self, name: str) -> tuple[str, ...] | None:

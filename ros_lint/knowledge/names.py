@@ -178,7 +178,7 @@ class Names:
         return tuple(distro for letter, distro in END_OF_LIFE.items() if letter in letters)
 
     def called(self, key: str) -> tuple[str, ...]:
-        """Return words of which at least one occurs in every use of a rosdep key.
+        """Return words of which at least one occurs in any source that uses the library of a rosdep key.
 
         These are the words in the name of the key, in lower case, and the names of its headers, modules and CMake
         packages.
@@ -300,7 +300,7 @@ class Names:
         return self._store.table("eol_names.tsv")[1]
 
     def _doubtful_names(self, file: str) -> frozenset[str]:
-        """Return the names in a map file for which declarations by packages are no good evidence.
+        """Return the names in a map file whose providers are uncertain.
 
         The providers of such a name were entered manually, or the packages that use the name rarely declare them.
         """

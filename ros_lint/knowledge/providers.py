@@ -281,7 +281,7 @@ def near(world: Layers, name: str, *, python: bool) -> tuple[str, ...]:
 
 
 def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggestion | None]:
-    """Yield a suggestion or None for each way to read a name: CMake package, header folder, module, apt package, pip package."""
+    """Yield a suggestion or None for each reading of a name as CMake package, header folder, module, apt package, pip package."""
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
     bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
     if python or bare != name:
@@ -326,9 +326,10 @@ def _has_module(world: Layers, package: str) -> bool:
 
 
 def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the packages of the first underlay that contributes any. Packages that the workspace overrides are left out.
+    """Return the packages of the topmost underlay for which ``owners`` has any.
 
-    ``owners`` has a tuple of packages for each underlay, the topmost first.
+    Packages that the workspace overrides do not count. ``owners`` has a tuple of packages for each underlay, the topmost
+    first.
     """
     for names in owners:
         visible = tuple(name for name in names if world.layer(name) == "underlay")

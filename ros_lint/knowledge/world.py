@@ -205,7 +205,7 @@ class World:
         return self._reach.closure(names)
 
     def closure_without(self, names: Iterable[str], package: str, removed: Container[str]) -> Closure:
-        """Return the closure of ``names`` as if ``package`` did not directly provide the names in ``removed``."""
+        """Return the closure of ``names`` as if ``package`` did not depend directly on the names in ``removed``."""
         return self._reach.closure_without(names, package, removed)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:

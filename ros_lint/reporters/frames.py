@@ -19,7 +19,7 @@ _CONTEXT = 20
 _MOST_CHARACTERS = 8_000
 """Maximum number of characters of a line that are processed. No screen shows so many."""
 _FIRST_LINES, _LAST_LINES = 3, 2
-"""If a place has many lines, the numbers of its first lines and of its last lines that are shown."""
+"""Number of first lines, and number of last lines, that are shown of a place with many lines."""
 _MIN_WIDTH = 40
 """Minimum width in columns for source text."""
 

@@ -245,7 +245,7 @@ def _primary(span: Span, source: Text | None) -> JsonObject:
 def _context(span: Span, source: Text) -> JsonObject:
     """Return the region of a line with the lines before and after it.
 
-    If they are long, return the part of the line around ``span``.
+    If these lines are long, return the part of the line around ``span``.
     """
     first, last = max(span.line - 1, 1), min(span.line + 1, source.line_count)
     context = Span(span.path, first, 1, last, len(source.line(last)) + 1)

@@ -40,7 +40,7 @@ def run(workspace: Workspace, name: str, form: str = "text") -> tuple[str, str, 
 
 
 _HEADINGS = {"cannot be seen through": "could not be analysed"}
-"""Headings in the text format, for keys of the JSON format with other words."""
+"""Headings of the text format that differ from the keys of the JSON format."""
 
 
 def _text(package: Package) -> str:

@@ -48,11 +48,11 @@ def current_workspace() -> str:
 
 
 def enclosing_workspace(file: str) -> str:
-    """Return the folder of the workspace that contains a file: the first of these that exists.
+    """Return the folder of the workspace that contains a file. It is the first of these folders that exists:
 
-    - the workspace or the repository around it,
+    - the colcon workspace or the git repository around the file,
     - the current folder, if the file is below it,
-    - the folder of the package, or else of the file.
+    - the folder of the package with the file, or else the folder of the file.
     """
     folder = os.path.dirname(os.path.realpath(file))
     current = os.path.realpath(os.curdir)
