@@ -52,7 +52,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     if package.builds_with == "ament_python":
         yield from _of_setup(package)
-    if package.builds_with != "ament_cmake":
+    if package.builds_with != "ament_cmake" or not script.files.scripts:
         return
     installed = script.products.installed
     nodes = {package.relative(use.span.path) for use in package.uses if use.via == "import" and use.package == "rclpy"}

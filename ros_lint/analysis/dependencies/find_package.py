@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from ros_lint.analysis.build.commands import FINDS_TESTS
@@ -65,23 +65,25 @@ def finding_others(package: Package, workspace: Workspace, names: Iterable[str])
     unknown dependencies may find any package.
     """
     unused = frozenset(names)
-    rest = _found(workspace, names_searched(package, package.built) - unused)
-    needed = [use.providers for use in package.uses if not use.optional and use.role & _BUILT and rest.isdisjoint(use.providers)]
-    needed = [providers for providers in dict.fromkeys(needed) if unused.isdisjoint(providers)]
+    is_found = _found(workspace, names_searched(package, package.built) - unused)
+    needed = dict.fromkeys([use.providers for use in package.uses if not use.optional and use.role & _BUILT])
+    lacking = [providers for providers in needed if unused.isdisjoint(providers) and not any(map(is_found, providers))]
     closures = {name: partial_closure(workspace, [name]) for name in unused}
     return frozenset(
         [
             name
             for name, closure in closures.items()
-            if not closure.complete or any(not closure.names.isdisjoint(providers) for providers in needed)
+            if not closure.complete or any(provider in closure for providers in lacking for provider in providers)
         ]
     )
 
 
-def _found(workspace: Workspace, names: Iterable[str]) -> frozenset[str]:
-    """Return the packages and rosdep keys that ``find_package()`` of each name finds, with their transitive dependencies."""
-    providers = [workspace.world.by_cmake(name).names for name in names]
-    return partial_closure(workspace, sorted(names)).names.union(*providers)
+def _found(workspace: Workspace, names: Iterable[str]) -> Callable[[str], bool]:
+    """Return a function: whether ``find_package()`` of the names finds a package or rosdep key, directly or transitively."""
+    all_names = sorted(names)
+    direct = frozenset([provider for name in all_names for provider in workspace.world.by_cmake(name).names])
+    closure = partial_closure(workspace, all_names)
+    return lambda name: name in closure or name in direct
 
 
 def found_only_through(package: Package, workspace: Workspace, unused: Iterable[str]) -> frozenset[str]:
@@ -91,15 +93,16 @@ def found_only_through(package: Package, workspace: Workspace, unused: Iterable[
     names, which fails for rosdep keys. Example: ``libpcl-all-dev`` is declared for the headers of PCL, but CMake finds
     PCL only because the declared ``pcl_conversions`` exports it. The result is empty without ament_cmake_auto.
     """
-    if not finds_declared(package):
+    names = frozenset(unused)
+    if not names or not finds_declared(package):
         return frozenset()
     world = workspace.world
-    names = frozenset(unused)
     searched = names_searched(package, package.built) - names
-    rest = _found(workspace, [name for name in searched if world.is_package(name) or not world.is_key(name)])
-    needed = [use.providers for use in package.uses if use.via == "include" and not use.optional and use.role & _BUILT]
-    needed = [providers for providers in dict.fromkeys(needed) if rest.isdisjoint(providers)]
-    return frozenset([name for name in names if any(provider in world.closure((name,)) for use in needed for provider in use)])
+    is_found = _found(workspace, [name for name in searched if world.is_package(name) or not world.is_key(name)])
+    included = [use.providers for use in package.uses if use.via == "include" and not use.optional and use.role & _BUILT]
+    lacking = [providers for providers in dict.fromkeys(included) if not any(map(is_found, providers))]
+    closures = {name: world.closure((name,)) for name in names}
+    return frozenset([name for name in names if any(provider in closures[name] for use in lacking for provider in use)])
 
 
 _BUILT = Role.BUILD | Role.EXPORT | Role.TEST

@@ -128,12 +128,15 @@ def exists_in_any_distro(name: str, workspace: Workspace) -> bool:
 
 def distros_providing(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:
     """Return the distributions other than the target in which a declared dependency provides ``name`` transitively."""
-    starts = {declared.name for declared in package.declared}
+    return workspace.world.knowledge.distros_providing(_declared_around(package, workspace), name)
+
+
+@cached_by_package
+def _declared_around(package: Package, workspace: Workspace) -> frozenset[str]:
+    """Return the names that the package declares, and those that its transitive dependencies in the workspace declare."""
     closure = all_declared(package, workspace)
-    for name_here, namesakes in workspace.by_name.items():
-        if name_here in closure:
-            starts.update(declared.name for namesake in namesakes for declared in namesake.declared)
-    return workspace.world.knowledge.distros_providing(starts, name)
+    around = [namesake for name, namesakes in workspace.by_name.items() if name in closure for namesake in namesakes]
+    return frozenset([declared.name for declaring in (package, *around) for declared in declaring.declared])
 
 
 def _joined(missing: Sequence[Need]) -> list[Need]:

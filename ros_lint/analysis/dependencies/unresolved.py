@@ -108,11 +108,12 @@ def misspelled_names(package: Package, workspace: Workspace) -> Mapping[str, str
     return {name: what for name, what in result.items() if what}
 
 
-def _unknown(package: Package, workspace: Workspace) -> Iterator[UnresolvedDependency]:
+@cached_by_package
+def _unknown(package: Package, workspace: Workspace) -> tuple[UnresolvedDependency, ...]:
     known = declared_names(workspace)
-    for name in dict.fromkeys([declared.name for declared in package.declared]):
-        if workspace.world.resolution(name) == "unknown" and package in known.get(name, ()):
-            yield from unresolved(name, [package])
+    names = dict.fromkeys([declared.name for declared in package.declared])
+    unknown = [name for name in names if workspace.world.resolution(name) == "unknown" and package in known.get(name, ())]
+    return tuple([dependency for name in unknown for dependency in unresolved(name, [package])])
 
 
 def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> str:
