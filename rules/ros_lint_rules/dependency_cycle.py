@@ -15,8 +15,8 @@ cycle. Test dependencies count as well; the build farm may not notice those, bec
 
 ## How to fix it
 
-Remove one of the dependencies that the finding names. If it is needed, move the shared code to a package of its own, or move
-the test that closes the cycle to a package that depends on both.
+Remove one of the dependencies that the finding names. If the dependency is needed, move the shared code to a package of its
+own, or move the test that closes the cycle to a package that depends on both packages.
 
 ## Limitations
 

@@ -17,7 +17,7 @@ A launch file that the launch front end rejects:
 - It passes numbers, booleans or actions where strings are required: `default_value=True`, `LaunchConfiguration(argument)`.
 - It passes `launch_arguments` without `.items()`, `parameters` without a list, or an integer as the period of a timer.
 
-This rule reports all of them because one of them is enough for `ros2 launch` to stop before it starts anything.
+One rule reports all of them, because one mistake is enough for `ros2 launch` to stop before it starts anything.
 
 ## Why it matters
 

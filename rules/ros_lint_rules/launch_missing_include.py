@@ -1,8 +1,8 @@
 """
 ## What it finds
 
-- A launch file that includes another launch file, or names a parameter file, model, map or display (a configuration of RViz,
-  `*.rviz`), that its package neither installs nor has in its sources.
+- A launch file that includes or names a missing file of a package: another launch file, a parameter file, a model, a map, or a
+  display (a configuration of RViz, `*.rviz`). The package neither installs the file nor has it in its sources.
 - An installed model, display or parameter file (URDF and xacro among them) that looks up a missing mesh or other file in a
   package of the workspace.
 - A missing file that MoveIt's builders read from their package:
@@ -40,8 +40,8 @@ Not reported:
 Reported with medium confidence:
 
 - Maps, files in a folder for generated files (`temp`, `tmp`, `generated`), and files that git ignores.
-- Recordings, if one of nearly the same name is installed in the same folder. The confidence is high if that file is the only
-  one that is not looked up.
+- Recordings, if a recording of nearly the same name is installed in the folder. The confidence is high if the installed
+  recording is the only one that nothing looks up.
 - The distribution was not chosen, and the released package may have the file in another distribution.
 - Files named by a model, display or parameter file that no launch file or model looks up itself.
 - The name depends on the default of an argument.

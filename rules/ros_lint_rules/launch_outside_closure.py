@@ -37,7 +37,7 @@ Reported with medium confidence:
 - Commands in front of nodes under a condition, which are mostly for debugging.
 - The other package depends on this one, so declaring it would close a cycle that colcon rejects. The launch file may belong in
   the other package.
-- Two packages need each other and neither declares it: only one of them can declare the other.
+- Two packages need each other, and neither package declares the other one: only one of the two can do so.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """
 ## What it finds
 
-A launch file that starts an executable which is not installed into `lib/<package>`: the installed executable has another name,
-it is not built, or it is a script that exists but is not installed.
+A launch file that starts an executable which is not installed into `lib/<package>`. Either the installed executable has another
+name, or the executable is not built, or it is a script in the sources that is not installed.
 
 ## Why it matters
 

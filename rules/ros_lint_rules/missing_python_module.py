@@ -8,8 +8,8 @@ In an `ament_python` package:
 - A sub-package that the list `packages=[package_name]` omits.
 - A folder with the module of an entry point, or with a module that an installed module imports, if the list `packages` omits
   the folder, or `find_packages()` omits it because it has no `__init__.py`.
-- A module of an entry point that imports a module of its own folder by its bare name. Both are installed in their Python
-  package, so the import needs the name of that package.
+- A module of an entry point that imports a neighbouring module by its bare name. Both modules are installed in a Python
+  package, so the import needs the name of that Python package.
 
 In any package:
 

@@ -3,7 +3,7 @@
 
 A dependency that is declared twice under the same condition:
 
-- the same tag with the same name twice;
+- two equal tags with the same name;
 - a `<build_depend>`, `<build_export_depend>` or `<exec_depend>` in addition to a `<depend>` on the same name.
 
 ## Why it matters

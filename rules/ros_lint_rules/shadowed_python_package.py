@@ -7,7 +7,7 @@ A package that generates interfaces and also installs a Python package with its 
 
 `rosidl_generate_interfaces()` installs a Python package with the name of the package, which contains the generated messages.
 CMake stops: "a Python module file or package with the same name 'x' has been installed before". Or one Python package hides the
-other, and `from x.msg import ...` or `from x import ...` fails.
+other one, and `from x.msg import ...` or `from x import ...` fails.
 
 ## How to fix it
 

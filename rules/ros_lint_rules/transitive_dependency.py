@@ -6,8 +6,8 @@ names the path of dependencies.
 
 ## Why it matters
 
-It works until the package in between drops the dependency, which its authors may do at any time. Then this package breaks
-without any change of its own.
+The package works until the declared dependency drops its own dependency on the used package, which may happen at any time. Then
+this package breaks without any change of its own.
 
 ## How to fix it
 

@@ -69,8 +69,8 @@ Reported with medium confidence:
 
 - The package is declared under a wrong name: see `unknown-dependency`. There is no fix here.
 - colcon rejects `package.xml`, which has to be fixed first.
-- Only other distributions have or had the package: the message names them. A dependency that provides it there counts as
-  providing it here. If the distribution is not set, these packages are reported like others.
+- Only other distributions have or had the package: the message names these distributions. A dependency that provides the
+  package there counts as providing it here. If the distribution is not set, such packages are reported like other packages.
 - A declared dependency is unknown and may provide the package, unless another use shows that it cannot.
 - All uses are in files that may not be built or installed.
 - The package is declared under a false condition and CMake does not ask for it: the files may be for other systems.
@@ -86,13 +86,13 @@ Optional uses are reported with low confidence and without a fix:
 There is also no fix if no rosdep key resolves for the distribution, and for a project of the workspace without `package.xml`:
 colcon builds it, but rosdep cannot resolve its name.
 
-Some packages come with another undeclared package for the same purposes and are not shown beside it, because one line is
-missing. They are reported as `transitive-dependency` once the other one is declared:
+Some packages come with another undeclared package for the same purposes. They are not shown beside the other package, because
+only one line is missing. Once the other package is declared, they are reported as `transitive-dependency`:
 
 - parts of launch that only launch files import: `ament_index_python` beside `launch_ros`;
 - tools that run tests: `python3-pytest` beside `ament_cmake_pytest`;
-- libraries that only files with headers of the other one include, if it depends on them directly: `orocos_kdl_vendor` beside
-  `kdl_parser`. Packages that `find_package()` names and interfaces are shown.
+- libraries that are included only in files that also include headers of the other package, if the other package depends on them
+  directly: `orocos_kdl_vendor` beside `kdl_parser`. Exceptions: interfaces, and packages that `find_package()` names.
 
 The severity is lower if the package works where it is built, launched and tested today:
 

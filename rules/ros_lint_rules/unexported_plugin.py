@@ -16,7 +16,7 @@ base class type y does not exist".
 
 Write `pluginlib_export_plugin_description_file(<package of the base class> plugins.xml)`. The fix exports a description if all
 its base classes belong to one package. If the package of the base class is in the workspace and nothing loads such plugins, the
-macro may be unnecessary and can be removed. The severity of this finding is info.
+macro may be unnecessary and can be removed. Such a finding has the severity info.
 
 ## Limitations
 

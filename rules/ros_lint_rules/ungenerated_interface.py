@@ -15,8 +15,8 @@ import name 'State' from 'robot.msg'". `ros2 interface show` does not find the i
 
 ## How to fix it
 
-Add the file to the call, or remove it. The fix adds it below another file of the same folder, if these files are listed
-literally.
+Add the file to the call, or remove the file. The fix adds it below another file of the same folder, if the call lists files of
+this folder literally.
 
 - rosidl rejects names like `motor_state.msg`: rename the file to `MotorState.msg` first.
 - Move the interfaces of an `ament_python` package to an `ament_cmake` package.

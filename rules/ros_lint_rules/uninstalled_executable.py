@@ -37,8 +37,8 @@ Reported with medium confidence:
 - Executables that only launch files start that are not installed, if a rule excludes one of them on purpose (`PATTERN x
   EXCLUDE`).
 
-Executables with the same problem are one finding. It is an error if launch files start them, and a warning if nothing does,
-because they may be run from the build folder.
+Executables with the same problem are one finding. The finding is an error if launch files start the executables. Otherwise it
+is a warning, because the executables may be run from the build folder.
 """
 
 from __future__ import annotations

@@ -42,7 +42,8 @@ A folder that nothing in the package names is reported with high confidence in t
 
 - It is inside a folder that is installed (`worlds/textures/`), and its files are only used at run time: configurations of RViz,
   maps, models, textures, parameters.
-- It contains such files, and the package builds, installs and tests nothing, so that these files are its purpose.
+- It contains files that are only used at run time, and the package builds, installs and tests nothing, so that these files are
+  the purpose of the package.
 - It contains parameters of nodes (`ros__parameters`), and the package has nodes, or files only.
 - It contains models or worlds, and the package has files only and installs no other model.
 - A file is looked up in it that does not exist and is not ignored by git.

@@ -20,9 +20,9 @@ rosdep definition", in every container and on the build farm.
 
 ## How to fix it
 
-Write the name of the package or the rosdep key. The fix does this if only one name is possible. It is unsafe if the message
-says that not every distribution has that name. If the package is not released, put its sources into the workspace, or name its
-install prefix with `--underlay`.
+Write the name of the package or the rosdep key. The fix does this if only one name is possible. The fix is unsafe if the
+message says that not every distribution has that name. If the package is not released, put its sources into the workspace, or
+name its install prefix with `--underlay`.
 
 ## Limitations
 

@@ -17,8 +17,8 @@ and packages that find this one do not find its dependencies. Mostly the variabl
 ## How to fix it
 
 Write the name of the variable that is set, or set the variable before the command. If nothing is missing, remove the reference.
-If exactly one variable of the package has a similar name, the fix writes its name. It is unsafe, because the command then has
-an effect.
+If exactly one variable of the package has a similar name, the fix writes this name. The fix is unsafe, because the command then
+has an effect.
 
 Findings that are probably consequences are hidden as long as this one is shown: for example, findings of
 `unexported-dependency` if the variable is an argument of `ament_export_dependencies()`.

@@ -10,8 +10,8 @@ release may be made with an outdated version.
 
 ## How to fix it
 
-Write the same version into both files. The unsafe fix writes that of `package.xml`, unless it is still the `0.0.0` of the
-template; then it writes that of `setup.py` into `package.xml`.
+Write the same version into both files. The unsafe fix writes the version of `package.xml` into the other file. If `package.xml`
+still has the version `0.0.0` of the template, the fix writes the version of `setup.py` into `package.xml`.
 
 ## Limitations
 

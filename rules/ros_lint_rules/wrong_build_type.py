@@ -10,7 +10,8 @@ The build fails.
 
 ## How to fix it
 
-Write the build type of the script, or add the script. The fix writes the other type if its script exists.
+Write the build type of the existing build script, or add the missing script. The fix writes the build type if the script of the
+other type exists.
 
 ## Limitations
 
