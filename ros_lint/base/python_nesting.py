@@ -159,7 +159,10 @@ def most_levels(text: str) -> int:
 
 
 def nests_too_deep(statement: str) -> bool:
-    """Return whether the expressions of a statement may nest more deeply than DEEPEST. The statement must be plain."""
+    """Return whether the expressions of a statement may nest more deeply than DEEPEST.
+
+    The statement must be plain, as defined in the module.
+    """
     code = re.sub(_JOINED, "", _code(statement))
     symbols = re.sub(_WORDS, lambda word: SYMBOLS[word[0]], code).translate(_UNCOUNTED)
     return first_too_deep(symbols) is not None

@@ -78,10 +78,11 @@ class RecordedTree:
         )
 
     def is_unchanged(self, answers: Answers) -> bool:
-        """Return whether the disk still gives these answers of an earlier run. Stores the current answers for later queries.
+        """Return whether the disk still gives the answers that were recorded in an earlier run.
 
-        A file with a different stamp counts as unchanged if its mode and size are the same, and its contents if they were
-        read. The other parts of a stamp, such as the time, affect no result.
+        Stores the current answers for later queries. A file with a different stamp (time, size and other metadata) counts
+        as unchanged if its mode and size are the same, and its contents if they were read. The other parts of a stamp,
+        such as the time, affect no result.
         """
         others: list[tuple[Query, str, TreeAnswer]] = [
             *(("identity", path, identity) for path, identity in answers.identities),
@@ -116,7 +117,10 @@ class RecordedTree:
         return True
 
     def renewed(self, answers: Answers) -> Answers | None:
-        """Return the unchanged ``answers`` with the current stamps; None if these would not make the next comparison faster."""
+        """Return ``answers``, which the disk still gives, with the current metadata of the files.
+
+        Return None if the next comparison would not be faster with the current metadata.
+        """
         if not self._renewed:
             return None
         settled = [

@@ -1,4 +1,4 @@
-"""Check a workspace with the settings of a session: the steps that ``check``, ``--fix``, ``--since`` and ``lsp`` share."""
+"""Check a loaded workspace with the settings of a run: the steps that ``check``, ``--fix``, ``--since`` and ``lsp`` share."""
 
 from __future__ import annotations
 

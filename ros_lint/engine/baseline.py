@@ -107,7 +107,10 @@ def write(path: str, report: Report, folders: Sequence[str]) -> None:
 
 
 def text(report: Report, folders: Sequence[str]) -> str:
-    """Return the text of the baseline file for a report: one sorted line for each key, so that git can merge versions of it."""
+    """Return the text of the baseline file for the findings of a report.
+
+    It has one line for each combination of rule, package and subject, sorted, so that git can merge versions of the file.
+    """
     counts = Counter(map(_key, report.issues))
     unsure = {_key(issue) for issue in report.issues if issue.finding.confidence is not Confidence.HIGH}
     entries = [_as_json(key, count, key not in unsure) for key, count in sorted(counts.items())]

@@ -23,7 +23,7 @@ _MOST_ROUNDS = 100
 
 
 class FixResult(NamedTuple):
-    """The fixes that passed their trials, and the fixes that were skipped."""
+    """The fixes that were checked successfully in memory, and the fixes that were skipped."""
 
     changed: Mapping[str, bytes]
     """The new contents of the changed files, by path."""
@@ -70,7 +70,7 @@ class Trials(Protocol):
 
 
 def fix(trials: Trials, unsaved: Mapping[str, bytes] = MappingProxyType({})) -> FixResult:
-    """Return all fixes that pass their trials. No file is written.
+    """Return all fixes that resolve their finding and cause no new one, as checked in memory. No file is written.
 
     ``unsaved`` has contents, by path, that replace those on disk, such as unsaved files of an editor. They are part of
     ``FixResult.changed``.
@@ -88,7 +88,7 @@ def fix(trials: Trials, unsaved: Mapping[str, bytes] = MappingProxyType({})) -> 
 
 
 class _Round:
-    """One round of trials.
+    """One round of applying fixes in memory and checking the result.
 
     It applies fixes in groups that are as large as possible, each group in addition to the earlier groups.
     """

@@ -19,7 +19,7 @@ _MOST_REPORTS = 8
 
 
 class _CachedReport(NamedTuple):
-    """A report, and for each file tree the recorded answers that the report depends on."""
+    """A report, and the recorded answers of the disk on which the report depends: one entry for each file tree."""
 
     report: Report
     answers: tuple[Answers, ...]

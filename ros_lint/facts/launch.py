@@ -121,7 +121,7 @@ class LaunchAction(NamedTuple):
     conditional_arguments: tuple[str, ...] = ()
     """Names of launch arguments that an include gets only under a condition whose value is unknown."""
     builtin_model: bool = False
-    """True if a launch helper of a released package contains the name of the executable. The helper then needs the executable."""
+    """True if a function of a released package, called by the launch file, names the executable. That package then needs it."""
 
     @property
     def has_scope(self) -> bool:

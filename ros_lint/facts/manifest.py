@@ -89,7 +89,7 @@ class Depend(NamedTuple):
     """A dependency element of a manifest, including ``group_depend``, ``member_of_group``, ``conflict`` and ``replace``."""
 
     name: str
-    """Name of the required package, rosdep key or group."""
+    """Name of the package, rosdep key or group."""
     tag: str
     """Name of the tag, such as "exec_depend"."""
     condition: str
@@ -140,7 +140,7 @@ class Manifest(NamedTuple):
     other_contents: tuple[Span, ...] = ()
     """Direct contents of ``<package>`` that are not elements: comments, processing instructions, text."""
     stray_text: tuple[Span, ...] = ()
-    """The members of ``other_contents`` that are text, which is an error."""
+    """The members of ``other_contents`` that are text."""
     indent: str = "  "
     """White space before each child of ``<package>``."""
     newline: str = "\n"

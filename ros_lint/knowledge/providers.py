@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 Layer = Literal["workspace", "underlay", "index"]
-"""The origin of a package. If several origins have the package, the first of them counts."""
+"""The layer that contains a package. If several layers contain it, the first one counts; "index" has the released packages."""
 
 
 class Providers(NamedTuple):
@@ -351,6 +351,6 @@ def _existing(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> 
     existing = [name for name in ordered if name in packages or name in as_keys]
     if as_keys and len(existing) > 1:
         existing.sort(key=lambda name: name in as_keys and world.knowledge.resolves(name) is False)
-    if existing:  # what another distribution calls the same package: it counts if it is declared
+    if existing:  # declaring the name of the same package in another distribution counts, too
         existing += [name for name in ordered if name not in existing and world.knowledge.elsewhere(name)]
     return Providers(tuple(existing), packages, as_keys)

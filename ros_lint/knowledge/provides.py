@@ -37,7 +37,7 @@ class Known(NamedTuple):
     """The known names of one kind, such as executables, that a package provides."""
 
     names: tuple[str, ...] = ()
-    """Names that exist in every installation of the package."""
+    """Names that certainly exist."""
     maybe: tuple[str, ...] = ()
     """Names that exist or not, depending on how the package was built."""
     complete: bool = False

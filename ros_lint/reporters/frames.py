@@ -36,7 +36,7 @@ class Mark(NamedTuple):
 
 
 def frame(marks: Sequence[Mark], texts: SourceTexts, style: Style, most: int | None = None) -> tuple[list[str], str]:
-    """Return the rows of a code frame, and the blanks left of its bar, with which further rows below it are aligned.
+    """Return the rows of a code frame, and the blanks left of its vertical bar, with which further rows below it are aligned.
 
     The frame shows the lines of the places in the first ``most`` files. For places in other files, it shows only path,
     line and label. ``most`` None means all files.

@@ -1,4 +1,4 @@
-"""``ros-lint --fix`` and ``--diff``: write the fixes that passed their trials, or print them as a patch."""
+"""``ros-lint --fix`` and ``--diff``: write the fixes that were checked successfully in memory, or print them as a patch."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class LaunchFileLookup:
         return self._includes.takes(file)
 
     def used(self, file: LaunchFile) -> frozenset[str]:
-        """Return the names of the launch configurations that a launch file, or an included file read so far, reads."""
+        """Return the names of the launch configurations that ``file``, or an included file that was read so far, uses."""
         result: set[str] = set()
         for launch_file in (file, *self.followed):
             for action in walk_actions(launch_file.actions):

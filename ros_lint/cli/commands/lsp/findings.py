@@ -32,7 +32,7 @@ def uri_of(base: str, path: str) -> str:
 
 
 def diagnostics(snapshot: Snapshot, positions: Positions) -> dict[str, list[types.Diagnostic]]:
-    """Return the diagnostics for the findings of a snapshot, by the URI of their file."""
+    """Return the diagnostics for the findings of a checked workspace (snapshot), by the URI of their file."""
     result: dict[str, list[types.Diagnostic]] = {}
     for issue in snapshot.report.issues:
         result.setdefault(uri_of(snapshot.base, issue.finding.span.path), []).append(_diagnostic(snapshot, issue, positions))

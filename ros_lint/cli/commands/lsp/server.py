@@ -1,4 +1,4 @@
-"""The language server: handles requests and notifications of the protocol with the last snapshot of each project."""
+"""The language server: answers requests of the editor from the last checked state (snapshot) of each open folder."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ _WATCHED = "**/*"
 
 
 class OpenProject:
-    """A project of the editor, with its last snapshot.
+    """A folder that is open in the editor, with its last checked state (snapshot).
 
-    All work on projects is done in one thread. If a text changes during a check, the diagnostics of that check are not
-    published, and the project is checked again.
+    All work on such folders is done in one thread. If a text changes during a check, the diagnostics of that check are
+    not published, and the folder is checked again.
     """
 
     def __init__(self, project: Project) -> None:
