@@ -96,10 +96,10 @@ class Layers(Protocol):
         """Return the top-level Python modules of a package."""
 
     def by_cmake(self, name: str) -> Providers:
-        """Return the providers of ``name``, the argument of find_package()."""
+        """Return the packages and keys that provide ``name``, the argument of find_package()."""
 
     def by_include_folder(self, folder: str) -> Providers:
-        """Return the providers of headers below an include folder, e.g. of ``rclcpp/...``."""
+        """Return the packages and keys that provide headers below an include folder such as ``rclcpp``."""
 
     def meant(self, name: str, *, python: bool) -> Suggestion | None:
         """Return the existing name that an unknown name certainly means, None if there is any doubt."""
@@ -112,7 +112,7 @@ _APT_PREFIX = re.compile(r"ros-[a-z]+-(?=[a-z])")
 
 
 def by_cmake(world: Layers, name: str) -> Providers:
-    """Return the providers of ``name``, the argument of find_package()."""
+    """Return the packages and keys that provide ``name``, the argument of find_package()."""
     owners = _in_underlay(world, [underlay.cmake(name) for underlay in world.underlays])
     if world.layer(name) == "workspace":
         return _existing(world, (name,))
@@ -126,13 +126,13 @@ def by_cmake(world: Layers, name: str) -> Providers:
 
 
 def by_macro(world: Layers, package: str) -> Providers:
-    """Return the providers of the CMake macros of a package."""
+    """Return the packages and keys that provide the CMake macros of ``package``."""
     names = world.knowledge.names.alternatives(package)
     return world.by_cmake(package) if len(names) == 1 else _existing(world, names, keys=names)
 
 
 def by_include(world: Layers, header: str) -> Providers:
-    """Return the providers of a header. ``header`` is the path in ``#include <header>``."""
+    """Return the packages and keys that provide a header. ``header`` is the path in ``#include <header>``."""
     names = world.knowledge.names
     first, slash, rest = header.partition("/")
     if slash and not world.underlays and not names.maps(first):
@@ -161,7 +161,7 @@ def by_include_folder(world: Layers, folder: str) -> Providers:
 
 
 def by_import(world: Layers, module: str) -> Providers:
-    """Return the providers of a Python module."""
+    """Return the packages and keys that provide a Python module. ``module`` may be dotted."""
     names = world.knowledge.names
     top = module.partition(".")[0]
     if replacement := replacement_key(top, world.knowledge.distro):
@@ -179,9 +179,9 @@ def by_import(world: Layers, module: str) -> Providers:
 
 
 def _with_released(world: Layers, module: str, packages: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the workspace packages with a Python module. The released package named like the module is added if it may have it.
+    """Return the workspace packages with a Python module. A released package named like the module is added.
 
-    The released package comes first if it certainly has the module, otherwise last.
+    It comes first if it certainly has the module, last if it may have the module, and is left out otherwise.
     """
     if module in packages or world.layer(module) == "workspace":
         return packages
@@ -326,7 +326,7 @@ def _has_module(world: Layers, package: str) -> bool:
 
 
 def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the packages of the topmost underlay for which ``owners`` has any.
+    """Return the packages in the first entry of ``owners`` that has any.
 
     Packages that the workspace overrides do not count. ``owners`` has a tuple of packages for each underlay, the topmost
     first.
@@ -339,7 +339,7 @@ def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str,
 
 
 def _existing(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
-    """Return the providers among ``names``: existing packages, and existing rosdep keys that are also in ``keys``.
+    """Return the packages and keys among ``names``: existing packages, and existing rosdep keys that are also in ``keys``.
 
     Keys without a rule for the distribution come after all others, because a declared name must resolve. Packages that
     only other distributions have, such as ``fastrtps``, the former name of ``fastdds``, come last.

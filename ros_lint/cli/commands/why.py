@@ -38,7 +38,7 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
     These dependencies are followed:
 
     - of the package ``start``: all that affect the build order,
-    - of other packages of the workspace: the same, except for those of tests only,
+    - of other packages of the workspace: all that affect the build order, except for test dependencies,
     - of packages outside of the workspace: run-time dependencies.
 
     At most ``most`` paths are printed, the shortest first. The code is 0 if there is a path, 1 if there is none, 2 if a
