@@ -23,7 +23,7 @@ Not reported:
 Reported with medium confidence:
 
 - A class that no source registers but whose name appears in a source, or that another package registers.
-- A class in an installed description that is not exported for any package.
+- A class in an installed description that the build script does not export.
 """
 
 from __future__ import annotations
@@ -53,6 +53,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     plugins = build.plugins(package)
     if plugins is None:
         return
+    exported = {path for call in package.calls(build.EXPORTING_PLUGINS, anywhere=True) for path in call.texts[1:]}
+    not_exported = plugins.of_ros_1.keys() - exported
     described = [(plugin, entry) for plugin in plugins.installed for library in plugin.libraries for entry in library.classes]
     for plugin, entry in described:
         for finding in _class(package, plugin, entry, plugins.macros):
@@ -61,7 +63,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 # The library may link that of the other package: then the class is loaded.
                 message = _of_other_package(entry.type, workspace)
                 yield finding._replace(message=message, confidence=Confidence.MEDIUM)
-            elif plugins.exports:
+            elif plugins.exports and plugin.path not in not_exported:
                 yield finding
             else:  # A description that is not exported has no effect, and many remain from ROS 1.
                 yield finding._replace(confidence=Confidence.MEDIUM)

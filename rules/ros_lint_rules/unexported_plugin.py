@@ -4,6 +4,7 @@
 A class that is registered with `PLUGINLIB_EXPORT_CLASS`, but is in no exported plugin description:
 
 - The package exports no description.
+- The description is exported only in package.xml, as in ROS 1: `<base plugin="${prefix}/plugins.xml"/>`.
 - The description is not exported, and therefore not installed.
 - No exported description lists a class of the library.
 
@@ -15,8 +16,9 @@ base class type y does not exist".
 ## How to fix it
 
 Write `pluginlib_export_plugin_description_file(<package of the base class> plugins.xml)`. The fix exports a description if all
-its base classes belong to one package. If the package of the base class is in the workspace and nothing loads such plugins, the
-macro may be unnecessary and can be removed. Such a finding has the severity info.
+its base classes belong to one declared package, or if package.xml exports the description for a declared package. If the package
+of the base class is in the workspace and nothing loads such plugins, the macro may be unnecessary and can be removed. Such a
+finding has the severity info.
 
 ## Limitations
 
@@ -59,7 +61,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         yield from _undescribed(package, plugins.registered)
         yield from _uninstalled(package, plugins)
     elif plugins.registered and not _reads_manifest(package):
-        yield _unexported(package, workspace, plugins.registered)
+        yield _unexported(package, workspace, plugins)
 
 
 def _uninstalled(package: Package, plugins: build.Plugins) -> Iterator[Finding]:
@@ -75,10 +77,10 @@ def _uninstalled(package: Package, plugins: build.Plugins) -> Iterator[Finding]:
         if any(entry.type in lacking for library in plugin.libraries for entry in library.classes):
             yield Finding(
                 f"'{plugin.path}' is not exported, so its plugins are not found; "
-                f"add {build.EXPORTING_PLUGINS}(<package of the base class> {plugin.path})",
+                f"add {build.EXPORTING_PLUGINS}({_base_package(package, plugins, plugin) or _UNKNOWN_BASE} {plugin.path})",
                 plugin.span,
                 plugin.path,
-                fix=_export(package, plugin),
+                fix=_export(package, plugins, plugin),
             )
 
 
@@ -115,7 +117,9 @@ def _reads_manifest(package: Package) -> bool:
     return any(element.tag in _READ_BY_RQT and element.get("plugin") for element in exports)
 
 
-def _unexported(package: Package, workspace: Workspace, registered: Sequence[Registration]) -> Finding:
+def _unexported(package: Package, workspace: Workspace, plugins: build.Plugins) -> Finding:
+    """Return the finding for a package that registers classes and exports no plugin description."""
+    registered = plugins.registered
     first, *others = registered
     related = first_related(Related("also registered here", macro.span) for macro in others)
     types = {macro.name for macro in registered}
@@ -127,18 +131,25 @@ def _unexported(package: Package, workspace: Workspace, registered: Sequence[Reg
             "or export a plugin description"
         )
         return Finding(message, first.span, "pluginlib", related, severity=Severity.INFO)
-    remedy = (
-        f"{build.EXPORTING_PLUGINS}(<package of the base class> {plugin.path})"
-        if plugin
-        else f"a plugin description and {build.EXPORTING_PLUGINS}()"
-    )
+    exported = plugins.of_ros_1.get(plugin.path) if plugin else None
+    if plugin is None:
+        problem = "no plugin description is exported"
+        remedy = f"a plugin description and {build.EXPORTING_PLUGINS}()"
+    else:
+        problem = (
+            f"ROS 2 does not read the export of '{plugin.path}' in package.xml"
+            if exported
+            else "no plugin description is exported"
+        )
+        remedy = f"{build.EXPORTING_PLUGINS}({_base_package(package, plugins, plugin) or _UNKNOWN_BASE} {plugin.path})"
     return Finding(
-        f"the plugin '{first.name}' is registered, but no plugin description is exported, so loaders do not find it; "
-        f"add {remedy}",
+        f"the plugin '{first.name}' is registered, but {problem}, so loaders do not find it; add {remedy}",
         first.span,
         plugin.path if plugin else "pluginlib",
-        related + ((Related("described here", plugin.span),) if plugin else ()),
-        _export(package, plugin) if plugin else None,
+        related
+        + ((Related("described here", plugin.span),) if plugin else ())
+        + ((Related("exported here, as in ROS 1", exported.span),) if exported else ()),
+        _export(package, plugins, plugin) if plugin else None,
         # A source that is not compiled may be unused; in a package without libraries, the library is yet to be added.
         confidence=Confidence.HIGH
         if build.library_registering(package, first) or not _builds_libraries(package)
@@ -158,17 +169,28 @@ def _builds_libraries(package: Package) -> bool:
     return any(target.kind == "library" and target.sources for target in package.built.products.targets)
 
 
-def _export(package: Package, plugin: PluginFile) -> Fix | None:
+def _export(package: Package, plugins: build.Plugins, plugin: PluginFile) -> Fix | None:
     script = package.script
-    bases = {entry.base.partition("::")[0] for library in plugin.libraries for entry in library.classes}
-    if script is None or len(bases) != 1 or "" in bases:
-        return None
-    base = bases.pop()
-    if not package.declares(base) and base != package.name:
+    base = _base_package(package, plugins, plugin)
+    if script is None or not base:
         return None
     return Fix.of(
         f"export '{plugin.path}'", edits.cmake.at_end(script, f"{build.EXPORTING_PLUGINS}({base} {plugin.path})"), safe=False
     )
+
+
+_UNKNOWN_BASE = "<package of the base class>"
+
+
+def _base_package(package: Package, plugins: build.Plugins, plugin: PluginFile) -> str:
+    """Return the package of the base classes in a plugin description, "" if it is unknown or not declared.
+
+    It has the name of the namespace of all base classes, or the name of the tag by which package.xml exports the description.
+    """
+    namespaces = {entry.base.partition("::")[0] for library in plugin.libraries for entry in library.classes}
+    exported = plugins.of_ros_1.get(plugin.path)
+    candidates = (*(namespaces if len(namespaces) == 1 else ()), *((exported.tag,) if exported else ()))
+    return next((name for name in candidates if name == package.name or package.declares(name)), "")
 
 
 RULE = Rule(

@@ -8,7 +8,9 @@ from typing import NamedTuple
 from ros_lint.analysis.build.commands import EXPORTING_PLUGINS, opaque_except_undefined_targets
 from ros_lint.analysis.memo import cached_by_workspace
 from ros_lint.base.auxiliary_files import is_auxiliary
+from ros_lint.collectors.manifest.plugin_exports import plugin_exports
 from ros_lint.facts.build import PluginFile
+from ros_lint.facts.manifest import Element
 from ros_lint.facts.sources import PluginLoader, Registration
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package, Workspace
@@ -27,6 +29,8 @@ class Plugins(NamedTuple):
     """Plugin descriptions that are not installed. Descriptions for tests and examples are left out."""
     exports: bool
     """True if the build script exports plugin descriptions."""
+    of_ros_1: Mapping[str, Element]
+    """Elements of package.xml that export a plugin description for ROS 1, by the path of the description."""
 
 
 _NEEDED = Facet.LIBRARIES | Facet.SHARE | Facet.COMPONENTS
@@ -48,6 +52,7 @@ def plugins(package: Package) -> Plugins | None:
         [plugin for plugin in used if plugin.path in script.products.installed],
         [plugin for plugin in used if plugin.path not in script.products.installed],
         EXPORTING_PLUGINS in script.commands.names or any(package.calls(EXPORTING_PLUGINS, anywhere=True)),
+        plugin_exports(package.manifest),
     )
 
 

@@ -11,6 +11,7 @@ from ros_lint.base.text import Span, Text, from_bytes, span_in, to_bytes
 from ros_lint.base.tree import Tree, contents, text_of
 from ros_lint.collectors.cmake.syntax import ParsedScript
 from ros_lint.collectors.launch.detect import is_of_ros_1
+from ros_lint.collectors.manifest.plugin_exports import plugin_exports
 from ros_lint.collectors.python.started_scripts import runs_when_started
 from ros_lint.collectors.resources import plugin_descriptions as plugin_xml
 from ros_lint.facts.build import BuildFiles, BuildScript, ScriptFile
@@ -39,7 +40,7 @@ def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Pa
     ``commands`` are the parsed CMake files of the package, by path relative to the package.
     """
     exports = (call for call in script.commands.calls if call.name.startswith("pluginlib_export"))
-    exported = {call.texts[1] for call in exports if len(call.args) > 1}
+    exported = {call.texts[1] for call in exports if len(call.args) > 1}.union(plugin_exports(package.manifest))
     markup = [file for file in package.files if file.endswith(".xml")]
     candidates = [file for file in markup if file in exported or _PLUGIN_FILE.search(file)]
     described = (plugin_xml.collect(file, text) for file in candidates if (text := text_in(tree, package, file)))
