@@ -54,7 +54,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for (owner, name), references in started.items():
         if "/" in name:
             continue
-        missing = _missing(owner, name, workspace)
+        missing = _missing(owner, name, package, workspace)
         if missing is None:
             continue
         best, *others = sorted(
@@ -90,8 +90,13 @@ class _Missing(NamedTuple):
     confidence: Confidence = Confidence.HIGH
 
 
-def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
+def _missing(owner: str, name: str, starting: Package, workspace: Workspace) -> _Missing | None:
+    """Return the hint if package ``owner`` does not install the executable ``name``, else None.
+
+    ``starting`` is the package of the launch file.
+    """
     owners = workspace.by_name.get(owner, ())
+    other = launch.only_installer([name], starting, workspace)
     if not owners:
         known = workspace.world.executables(owner)
         if known.ask(name) != "missing":
@@ -99,7 +104,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
         sure = workspace.surely_lacks(owner, "executables", name)
         meant = _meant(name, known.names)
         return _Missing(
-            f" in {workspace.target.distro}{_hint(name, meant, known.possible)}",
+            f" in {workspace.target.distro}{_hint(name, meant, other, known.possible)}",
             meant,
             (),
             Confidence.HIGH if sure else Confidence.MEDIUM,
@@ -126,7 +131,7 @@ def _missing(owner: str, name: str, workspace: Workspace) -> _Missing | None:
         for script in scripts
         if script and script.commands.insertion
     )
-    return _Missing(_hint(name, meant, tuple(sorted(all_names))), meant, related[:1])
+    return _Missing(_hint(name, meant, other, tuple(sorted(all_names))), meant, related[:1])
 
 
 def _is_lost(package: Package, name: str) -> bool:
@@ -180,9 +185,17 @@ def _uninstalled_script(package: Package, name: str) -> _Missing | None:
     return _Missing(f"; install the script '{uninstalled}' to {own[:-1]}", "", (file,))
 
 
-def _hint(name: str, meant: str, all_names: tuple[str, ...]) -> str:
+def _hint(name: str, meant: str, other: str, all_names: tuple[str, ...]) -> str:
+    """Return the end of the message for an executable that a package does not install.
+
+    - ``meant``: the only executable of the package that is possible instead, or ""
+    - ``other``: the only package that installs ``name``, or ""
+    - ``all_names``: the executables of the package
+    """
     if meant:
         return names.ask_if_meant([meant])
+    if other:
+        return f"; did you mean '{other}', which installs '{name}'?"
     near = names.near_names(name, all_names, 3, 0.6)
     if near:
         return names.did_you_mean(near)

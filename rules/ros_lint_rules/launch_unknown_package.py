@@ -8,6 +8,7 @@ The message suggests another package in these cases:
 
 - A package with a similar name exists.
 - The package of the launch file installs the executables that are started. It was renamed, or the launch file was copied.
+- Exactly one package of the workspace installs the executables that are started.
 - The name lacks the first word that the packages of a project share: `planner_utils` for `acme_planner_utils` in a launch file
   of `acme_bringup`. Nothing is suggested if `acme_planner_utils` lacks the executables and files that the launch file names.
 
@@ -224,9 +225,22 @@ def _verdict(name: str, places: Sequence[_Place], package: Package, workspace: W
     nowhere = f" in the workspace, the underlays or {distro} (package index of {date})"
     # The same confidence as unknown-dependency has for a name in package.xml.
     invalid = package.declares(name) and not names.may_be_package(name)
-    hint = f"{nowhere}{names.did_you_mean(near or reordered)}"
+    alike = near or reordered
+    hint = f"{nowhere}{names.did_you_mean(alike) if alike else _ask_if_installer(places, package, workspace)}"
     confidence = Confidence.HIGH if invalid else Confidence.MEDIUM
     return _Verdict(hint, confidence, resembles=bool(known or reordered), known=bool(reordered))
+
+
+def _ask_if_installer(places: Sequence[_Place], package: Package, workspace: Workspace) -> str:
+    """Return the question whether the only package that installs all executables of ``places`` is meant.
+
+    The result is "" if there is no such package, or it lacks a file that ``places`` look up.
+    """
+    wanted = list(dict.fromkeys(place.reference.name for place in places if place.reference.kind == "node"))
+    other = launch.only_installer(wanted, package, workspace)
+    if not other or not _may_have(other, places, workspace, all):
+        return ""
+    return f"; did you mean '{other}', which installs {names.shorten_list(wanted)}?"
 
 
 def _its_program(successor: str, places: Sequence[_Place], workspace: Workspace) -> str:

@@ -17,6 +17,7 @@ from ros_lint.facts.launch import LaunchFile, LaunchReference
 from ros_lint.facts.sources import LookUp
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package, Workspace
+from ros_lint.workspace.side_by_side import workspace_of
 
 
 class PackageLaunchFile(NamedTuple):
@@ -141,6 +142,29 @@ def installed_programs(package: Package) -> InstalledPrograms | None:
         elif folder == "bin" or (folder.startswith("lib/") and not provided.importable):
             elsewhere.setdefault(name, provided.path)
     return InstalledPrograms(frozenset(names), elsewhere)
+
+
+def only_installer(programs: Iterable[str], package: Package, workspace: Workspace) -> str:
+    """Return the only package that installs all ``programs``, "" if there is none, or more than one.
+
+    In a repository with several workspaces, only packages in the workspace of ``package`` count.
+    """
+    installing = [_installers(workspace).get(program, frozenset()) for program in programs]
+    in_all = frozenset.intersection(*installing) if installing else frozenset()
+    own = workspace_of(package.path)
+    names = [name for name in in_all if any(workspace_of(other.path) == own for other in workspace.by_name.get(name, ()))]
+    return names[0] if len(names) == 1 else ""
+
+
+@cached_by_workspace
+def _installers(workspace: Workspace) -> Mapping[str, frozenset[str]]:
+    """Return the names of the packages that install a program, by the name of the program."""
+    installed = [(package.name, installed_programs(package)) for package in workspace.packages]
+    by_program: dict[str, set[str]] = {}
+    for name, programs in installed:
+        for program in programs.names if programs else ():
+            by_program.setdefault(program, set()).add(name)
+    return {program: frozenset(names) for program, names in by_program.items()}
 
 
 _SUFFIX = re.compile(r"(?:[._-]?launch\.(?:py|xml|ya?ml)|\.launch)$")

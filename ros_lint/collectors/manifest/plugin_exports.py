@@ -14,7 +14,8 @@ _PREFIX = "${prefix}/"
 def plugin_exports(manifest: Manifest | None) -> Mapping[str, Element]:
     """Return the elements in ``<export>`` that name a plugin description, by its path in the package.
 
-    ``<base plugin="${prefix}/plugins.xml"/>`` exports ``plugins.xml`` for package ``base``. The result is empty without a manifest.
+    ``<base plugin="${prefix}/plugins.xml"/>`` exports ``plugins.xml`` for package ``base``.
+    Without a manifest, the result is empty.
     """
     exports = manifest.exports if manifest else ()
     named = ((element.get("plugin"), element) for element in exports)
