@@ -17,6 +17,8 @@ Not reported:
 
 - Arguments of a file that computes the names of the configurations it reads.
 - Arguments of a Python launch file that imports modules which may read them.
+- Arguments of a launch file whose tests read `test_args` of launch_testing.
+- Launch files of examples, and of tests that the build script does not run.
 - Arguments of a file that fills in parameters from launch configurations (`allow_substs`), because users may choose another
   parameter file, which may use any argument.
 - All arguments, if a file of the workspace cannot be read, because it may include this file.
@@ -32,12 +34,21 @@ from collections.abc import Iterator
 
 from ros_lint.api import STANDARD_LIBRARY, Finding, LaunchFile, Package, Rule, Severity, Workspace, launch
 
-_QUIET = launch.LAUNCH_RUNTIME | {"nav2_common", "xacro", "yaml"}
-"""Python modules that read no launch configurations, beside those of the standard library."""
+_QUIET = launch.LAUNCH_RUNTIME | {
+    "launch_pytest",
+    "launch_testing",
+    "launch_testing_ros",
+    "nav2_common",
+    "pytest",
+    "rclpy",
+    "xacro",
+    "yaml",
+}
+"""Python modules that read no launch configurations, beside those of the standard library and of interfaces."""
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    for launch_file in launch.package_launch_files(package):
+    for launch_file in launch.run_launch_files(package):
         file = launch_file.file
         arguments = launch.argument_use(file, workspace)
         if arguments is None or _may_be_read_elsewhere(file, workspace):
@@ -63,8 +74,8 @@ def _may_be_read_elsewhere(file: LaunchFile, workspace: Workspace) -> bool:
 
 def _is_of_launch(module: str) -> bool:
     """Return whether a module certainly reads no launch configurations."""
-    top = module.partition(".")[0]
-    return top in _QUIET or top in STANDARD_LIBRARY
+    top, _, inner = module.partition(".")
+    return top in _QUIET or top in STANDARD_LIBRARY or inner in ("action", "msg", "srv")
 
 
 def _replacing(file: LaunchFile, package: Package, workspace: Workspace) -> Iterator[str]:

@@ -36,6 +36,8 @@ from ros_lint.facts.launch import LaunchAction, LaunchFile
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 _MAX_LENGTH = 250_000
+_CONFIGURATIONS = (".launch_configurations", "test_args")
+"""Mappings of all launch configurations: that of the launch context, and the one that launch_testing passes to tests."""
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -183,7 +185,7 @@ class _Interpretation:
             if launch_object.name.startswith("LaunchConfig")  # includes LaunchConfigAsBool of nav2_common
             for name in texts(launch_object.get(0, "variable_name", "launch_configuration_name"), evaluation)
         }
-        if self._machine.borrows or ".launch_configurations" in self._source.text.text:
+        if self._machine.borrows or any(word in self._source.text.text for word in _CONFIGURATIONS):
             names.add(UNKNOWN)
         return tuple(sorted(names))
 
