@@ -26,7 +26,7 @@ def test_the_generated_files_are_up_to_date(request: pytest.FixtureRequest) -> N
 def complete(*words: str) -> set[str]:
     """Return what Bash completes for the last word."""
     script = 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _ros_lint; printf "%s\\n" "${COMPREPLY[@]}"'
-    command = ["bash", "-c", script, "bash", str(ROOT / generate.BASH), "ros-lint", *words]
+    command = ["bash", "-c", script, "bash", str(ROOT / generate.COMPLETIONS["bash"]), "ros-lint", *words]
     return set(subprocess.run(command, capture_output=True, text=True, check=True).stdout.split())
 
 

@@ -23,6 +23,8 @@ _LSP_OPTIONS = (
 )  # fmt: skip
 """The names of the options of ``ros-lint lsp``, the language server."""
 _WORKSPACE_HELP = "workspace (default: the workspace that contains the current folder)"
+SHELLS = ("bash", "zsh", "fish")
+"""The shells for which ``ros-lint completion`` prints a script."""
 _SIMILAR = 0.75
 """Minimum similarity (0 to 1) of an option to suggest it for an unknown one: ``--exit-zero`` does not suggest ``--distro``."""
 _EPILOG = """\
@@ -195,7 +197,7 @@ def _add_new_rule(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_completion(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("shell", choices=("bash", "zsh", "fish", "tcsh"))
+    parser.add_argument("shell", choices=SHELLS, help="the shell")
 
 
 _ADDERS: dict[str, Callable[[argparse.ArgumentParser], None]] = {

@@ -132,6 +132,8 @@ OPTIONS: tuple[CliOption, ...] = (
     CliOption("write-baseline", "flag", False, "write all findings to the baseline file and exit", in_file=False),
     CliOption("fix", "flag", False, "apply safe fixes", in_file=False),
     CliOption("unsafe-fixes", "flag", False, "with --fix or --diff, include fixes that may change behaviour", in_file=False),
+    CliOption("fix-only", "words", (), "with --fix or --diff, apply only fixes of these rules", metavar="RULES", in_file=False),
+    CliOption("show-fixes", "flag", False, "with --fix, list the applied fixes", in_file=False),
     CliOption("diff", "flag", False, "show what --fix would change, without changing files", in_file=False),
     CliOption("config", "path", "", "configuration file to use instead of the nearest one", metavar="FILE", in_file=False),
     CliOption("isolated", "flag", False, "ignore configuration files and environment variables", in_file=False),

@@ -18,7 +18,7 @@ from ros_lint.engine.selection import Selection, show
 from ros_lint.workspace.writable import Writable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Container, Iterable, Mapping, Sequence
 
     from ros_lint.analysis.rule import Rule
     from ros_lint.engine.report import Issue
@@ -65,11 +65,19 @@ class FixTrials:
     """Tries fixes on the workspace of a loader. It implements :class:`ros_lint.engine.fixing.Trials`.
 
     Only files below ``roots`` are changed. ``rules`` are all rules, including those that are not selected. If ``unsafe``
-    is True, fixes that may change the behaviour of programs are tried as well.
+    is True, fixes that may change the behaviour of programs are tried as well. ``only`` are the names of the rules whose
+    fixes are tried, None for all rules.
     """
 
     def __init__(
-        self, loader: Loader, roots: Sequence[str], selection: Selection, rules: Sequence[Rule], *, unsafe: bool = False
+        self,
+        loader: Loader,
+        roots: Sequence[str],
+        selection: Selection,
+        rules: Sequence[Rule],
+        *,
+        unsafe: bool = False,
+        only: Container[str] | None = None,
     ) -> None:
         self._loader = loader
         self._roots = roots
@@ -77,6 +85,7 @@ class FixTrials:
         self._rules = rules
         self._run = tuple(rule for rule in rules if rule.default or rule in selection.rules)
         self._unsafe = unsafe
+        self._only = only
         self._trials: list[Trial] = []
         self._files_to_edit: set[str] = set()
         """Paths of the files that fixes edit. The loader keeps their bytes as first read."""
@@ -165,6 +174,8 @@ class FixTrials:
     def _fixable_issues(self, changed: Mapping[str, bytes]) -> list[Issue]:
         """Return the issues to show that have a fix of the selected kind: safe, or also unsafe."""
         issues = [issue for issue in self.trial(changed).issues if issue.rule in self._selection.rules]
+        if self._only is not None:
+            issues = [issue for issue in issues if issue.rule.name in self._only]
         issues = [issue for issue in issues if is_below_any(issue.finding.span.path, self._roots)]
         shown, _ = show(issues, self._selection)
         return [issue for issue in shown if issue.finding.fix and (issue.finding.fix.safe or self._unsafe)]

@@ -24,7 +24,10 @@ def run(command: str, options: Mapping[str, Any]) -> int:
             print(json.dumps(schema(), indent=2))
             return 0
         case _:
-            return _completion(options["shell"])
+            from ros_lint.cli import completions  # noqa: PLC0415
+
+            print(completions.script(options["shell"]), end="")
+            return 0
 
 
 def _rules(options: Mapping[str, Any]) -> int:
@@ -43,16 +46,4 @@ def _rules(options: Mapping[str, Any]) -> int:
         print(rule_pages.as_json(matches), end="")
     else:
         print(rule_pages.listing(matches) if name is None else rule_pages.page(matches[0]), end="")
-    return 0
-
-
-def _completion(shell: str) -> int:
-    try:
-        import shtab  # noqa: PLC0415
-    except ModuleNotFoundError:
-        print("ros-lint: completion needs shtab: pip install 'ros-lint[completion]'", file=sys.stderr)
-        return 2
-    from ros_lint.cli.arguments import create_parser  # noqa: PLC0415
-
-    print(shtab.complete(create_parser("check", top=True), shell=shell))
     return 0
