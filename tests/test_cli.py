@@ -157,7 +157,7 @@ def test_an_unknown_rule_in_a_file_is_reported_with_the_file_and_the_setting(cle
     (clean / "ros-lint.toml").write_text(text)
     process = run(clean)
     assert process.returncode == 2
-    assert process.stderr.startswith(f"ros-lint: ros-lint.toml: {name}: unknown rule 'unusd-dependency'; did you mean ")
+    assert process.stderr.startswith(f"ros-lint: ros-lint.toml:1: {name}: unknown rule 'unusd-dependency'; did you mean ")
 
 
 def test_the_distribution_is_chosen_by_option_file_environment_or_default(demo: Path) -> None:
@@ -166,6 +166,27 @@ def test_the_distribution_is_chosen_by_option_file_environment_or_default(demo: 
     assert " for kilted (--distro)" in run(demo, "--distro", "kilted", env={"ROS_DISTRO": "humble"}).stdout
     (demo / "ros-lint.toml").write_text('distro = "jazzy"')
     assert " for jazzy (ros-lint.toml)" in run(demo, env={"ROS_DISTRO": "humble"}).stdout
+
+
+@pytest.mark.parametrize("arguments", [(), ("--fix",), ("why", "rover_driver", "rclcpp", "-C")])
+def test_an_environment_with_a_distribution_without_data_is_an_error(demo: Path, arguments: tuple[str, ...]) -> None:
+    process = run(*arguments, demo, env={"ROS_DISTRO": "foxy"})
+    assert process.returncode == 2
+    assert process.stderr.startswith("ros-lint: ROS_DISTRO: end-of-life distribution 'foxy' (available: humble, ")
+    assert process.stderr.endswith("; pass --distro\n")
+
+
+def test_patterns_that_match_no_file_are_reported(demo: Path) -> None:
+    (demo / "ros-lint.toml").write_text(
+        'exclude = ["rover_driver",\n  "rover_drivr"]\n[per-path-ignores]\n"src/**" = ["ROS201"]\n"srv/**" = ["ROS201"]\n'
+    )
+    warnings = [
+        "ros-lint: ros-lint.toml:2: exclude: the pattern 'rover_drivr' matches no file",
+        "ros-lint: ros-lint.toml:5: per-path-ignores: the pattern 'srv/**' matches no file",
+    ]
+    assert run(".", cwd=demo).stderr.splitlines() == warnings
+    assert run(".", cwd=demo).stderr.splitlines() == warnings, "also from the cache"
+    assert "matches no file" not in run("src/rover_teleop", cwd=demo).stderr, "the patterns may match elsewhere"
 
 
 def test_a_package_checked_without_its_siblings_gives_a_warning(demo: Path) -> None:
@@ -252,6 +273,18 @@ def test_a_second_fix_changes_nothing(demo: Path) -> None:
     assert {path: path.read_bytes() for path in before} == before
 
 
+def test_only_the_fixes_of_some_rules_are_applied_and_listed(demo: Path) -> None:
+    process = run(demo, "--fix", "--fix-only", "ROS201", "--show-fixes")
+    assert process.stderr.splitlines() == [
+        "ros-lint: fixed 1 finding in 1 file",
+        "  src/rover_driver/package.xml: declare 'sensor_msgs' as <depend> [undeclared-dependency]",
+    ]
+    assert "Fixable: 3 with --fix" in process.stdout
+    process = run(demo, "--diff", "--fix-only", "undeclared")
+    assert process.returncode == 2
+    assert process.stderr.startswith("ros-lint: --fix-only: unknown rule 'undeclared'; did you mean 'undeclared-dependency'?")
+
+
 def test_fixes_that_together_would_close_a_cycle(tmp_path: Path) -> None:
     manifest = (
         '<package format="3"><name>{0}</name><version>1.0.0</version><description>d</description>'
@@ -321,12 +354,14 @@ def test_rules_schema_and_completion_are_printed() -> None:
     assert "did you mean 'undeclared-dependency'?" in run("rule", "undeclared").stderr
     assert run("rule", "undeclared").returncode == 2
     assert json.loads(run("schema").stdout)["properties"]["distro"]
+    for shell, path in (("bash", "ros-lint.bash"), ("zsh", "_ros-lint"), ("fish", "ros-lint.fish")):
+        assert run("completion", shell).stdout == (ROOT / "packaging" / "completions" / path).read_text("utf-8")
 
 
 def test_the_pre_commit_hooks_check_the_whole_project() -> None:
     yaml = pytest.importorskip("yaml")
     hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
-    assert [hook["id"] for hook in hooks] == ["ros-lint", "ros-lint-fix"]
+    assert [hook["id"] for hook in hooks] == ["ros-lint", "ros-lint-new", "ros-lint-fix"]
     for hook in hooks:
         assert hook["always_run"]
         assert not hook["pass_filenames"]

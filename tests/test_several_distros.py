@@ -349,9 +349,9 @@ def test_the_settings_can_list_distributions(robot: Path, capsys: pytest.Capture
     assert report(capsys, code=1)["distro_source"] == "newest LTS"
 
 
-@pytest.mark.parametrize("origin", ["--distro", "ros-lint.toml"])
+@pytest.mark.parametrize("origin", ["--distro", "ros-lint.toml:2"])
 def test_an_unknown_name_is_an_error(robot: Path, capsys: pytest.CaptureFixture[str], origin: str) -> None:
-    (robot / "ros-lint.toml").write_text('distro = ["humble", "jazy"]')
+    (robot / "ros-lint.toml").write_text('distro = ["humble",\n  "jazy"]')
     run(*(("--distro", "humble,jazy") if origin == "--distro" else ()), code=2)
     assert f"{origin}: unknown distribution 'jazy'; did you mean 'jazzy'?" in capsys.readouterr().err
 

@@ -1,11 +1,11 @@
-# Completion of ros-lint, written by packaging/generate.py.
+# Completion of ros-lint.
 _ros_lint() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=check words=
   case ${COMP_WORDS[1]} in
     check|order|why|graph|explain-package|launch|lsp|overlay|rules|rule|new-rule|index|cache|schema|completion) [ "$COMP_CWORD" = 1 ] || command=${COMP_WORDS[1]} ;;
   esac
   case $command in
-    check) words="-h --help --distro --underlay --select --extend-select --ignore --pedantic --fail-on --min-severity --exclude --context --no-context --packages-select --packages-up-to --packages-above --packages-select-regex --packages-skip --baseline --since --plugins --jobs --cache --no-cache --format --output --rule-url --color --write-baseline --fix --unsafe-fixes --diff --config --isolated --show-settings --statistics -q --quiet --progress --no-progress" ;;
+    check) words="-h --help --distro --underlay --select --extend-select --ignore --pedantic --fail-on --min-severity --exclude --context --no-context --packages-select --packages-up-to --packages-above --packages-select-regex --packages-skip --baseline --since --plugins --jobs --cache --no-cache --format --output --rule-url --color --write-baseline --fix --unsafe-fixes --fix-only --show-fixes --diff --config --isolated --show-settings --statistics -q --quiet --progress --no-progress" ;;
     order) words="-h --help --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress" ;;
     why) words="-h --help --explain-silence -C --workspace --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress" ;;
     graph) words="-h --help --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress --format --focus --depth --external --edges --reduce --metrics" ;;
@@ -19,7 +19,7 @@ _ros_lint() {
     index) words="-h --help --from --distro --rosdep --to refresh scan" ;;
     cache) words="-h --help --format info clean" ;;
     schema) words="-h --help" ;;
-    completion) words="-h --help bash zsh fish tcsh" ;;
+    completion) words="-h --help bash zsh fish" ;;
   esac
   [ "$COMP_CWORD" != 1 ] || words="$words check order why graph explain-package launch lsp overlay rules rule new-rule index cache schema completion"
   case $command:$previous in
@@ -31,6 +31,7 @@ _ros_lint() {
     check:--min-severity) words="error warning info" ;;
     check:--format) words="text concise json jsonl sarif github gitlab azure junit checkstyle rdjson markdown html" ;;
     check:--color) words="auto always never" ;;
+    check:--fix-only) words="rejected-manifest duplicate-package dependency-cycle unknown-dependency unresolvable-key redundant-dependency missing-build-type wrong-build-type name-mismatch version-mismatch manifest-schema placeholder-metadata undecidable-condition version-requirement nested-package end-of-life-dependency shadowed-package unknown-build-type multiple-build-types undeclared-dependency transitive-dependency wrong-dependency-kind unused-dependency unused-find-package missing-find-package unexported-dependency missing-interface-runtime unrun-linters unlinked-dependency invalid-ament-dependency missing-interface-group missing-interface-dependency needless-interface-group missing-ament-package command-after-ament-package duplicate-ament-package missing-file undefined-target unguarded-test deprecated-command removed-command catkin-leftover shadowed-python-package invalid-build-script ungenerated-interface invalid-interface old-cmake-version find-package-without-required duplicate-find-package overwritten-cmake-variable include-find-module link-directories unknown-interface unset-variable export-scope uninstalled-launch uninstalled-resource uninstalled-executable unused-executable-target script-not-executable entry-point-target entry-point-location missing-marker missing-python-module empty-glob directory-in-glob plugin-mismatch component-mismatch uninstalled-library uninstalled-headers uninstalled-script machine-path distribution-path invalid-entry-point duplicate-entry-point component-keyword component-scope uninstalled-component unexported-plugin wrong-plugin-package missing-plugin-library misplaced-headers unexported-headers missing-include-directory launch-unknown-package launch-unknown-executable launch-outside-closure launch-unknown-component launch-missing-include launch-invalid launch-duplicate-node launch-duplicate-file launch-sibling-import parameter-file remap-no-effect launch-missing-argument launch-unknown-argument launch-undeclared-configuration launch-used-before-declaration launch-invalid-default launch-invalid-expression launch-unused-argument launch-relative-path launch-misjoined-path launch-substitution-as-value unused-suppression unknown-rule-in-suppression" ;;
     order:--distro) words="humble jazzy kilted lyrical rolling" ;;
     why:--distro) words="humble jazzy kilted lyrical rolling" ;;
     graph:--distro) words="humble jazzy kilted lyrical rolling" ;;

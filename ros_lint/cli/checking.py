@@ -40,12 +40,13 @@ def selection_of(settings: Settings) -> Selection:
     """Return the selection of rules and findings that the settings make. Raises SelectionError and PluginError."""
     rules = registry.load(settings["plugins"])
     per_path = [name for names in settings["per-path-ignores"].values() for name in names]
-    for option in ("select", "extend-select", "ignore", "severity", "per-path-ignores"):
-        try:
-            check_selectors(rules, per_path if option == "per-path-ignores" else settings[option])
-        except SelectionError as error:
-            origin = settings.origin(option)
-            raise SelectionError(f"{origin}: {error}" if origin.startswith("--") else f"{origin}: {option}: {error}") from error
+    for option in ("select", "extend-select", "ignore", "severity", "per-path-ignores", "fix-only"):
+        for selector in per_path if option == "per-path-ignores" else settings[option]:
+            try:
+                check_selectors(rules, (selector,))
+            except SelectionError as error:
+                place = settings.place(option, selector)
+                raise SelectionError(f"{place}: {error}" if place.startswith("--") else f"{place}: {option}: {error}") from error
     return select(
         rules,
         chosen=settings["select"],

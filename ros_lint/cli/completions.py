@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from ros_lint.cli.arguments import SHELLS, create_parser
+from ros_lint.cli.arguments import create_parser
 from ros_lint.cli.options import COMMANDS
 from ros_lint.engine import registry
 from ros_lint.knowledge import distros
@@ -14,7 +14,10 @@ _RULE_OPTIONS = ("--select", "--extend-select", "--ignore", "--fix-only")
 
 
 def script(shell: str) -> str:
-    """Return the completion script for a shell, one of ``SHELLS``. It completes commands, options, rules and distributions."""
+    """Return the completion script for "bash", "zsh" or "fish".
+
+    It completes commands, options, rules and distributions.
+    """
     match shell:
         case "zsh":
             return f"#compdef ros-lint\nautoload -Uz bashcompinit && bashcompinit\n{_bash()}"
@@ -53,11 +56,11 @@ def _words(action: argparse.Action, command: str) -> list[str]:
 def _bash() -> str:
     options, values = [], []
     for command in COMMANDS:
-        actions = actions(command)
-        flags = dict.fromkeys(flag for action in actions for flag in action.option_strings)
-        words = [word for action in actions if not action.option_strings for word in _words(action, command)]
+        arguments = actions(command)
+        flags = dict.fromkeys(flag for action in arguments for flag in action.option_strings)
+        words = [word for action in arguments if not action.option_strings for word in _words(action, command)]
         options.append(f'    {command}) words="{" ".join([*flags, *words])}" ;;')
-        for action in actions:
+        for action in arguments:
             known = _words(action, command)
             if known and action.option_strings:
                 values += [f'    {command}:{flag}) words="{" ".join(known)}" ;;' for flag in action.option_strings]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.suggestions import and_list, did_you_mean, similar_names
@@ -11,6 +11,7 @@ from ros_lint.base.tracked_tree import TrackedTree
 from ros_lint.base.tree import DiskTree, repository_of
 from ros_lint.cli.context import context_of, requested_folder
 from ros_lint.cli.options import COMMANDS, OPTIONS
+from ros_lint.cli.patterns import Excluder
 from ros_lint.cli.settings import Settings, settle
 from ros_lint.engine.registry import BUILTIN
 from ros_lint.engine.report_cache import ReportCache
@@ -76,6 +77,8 @@ class Session(NamedTuple):
     warnings: tuple[str, ...]
     cache: CacheFile
     """The file with cached results of the workspace, as in :class:`Request`."""
+    excluder: Excluder
+    """The patterns of paths not to read."""
 
 
 def open_workspace(options: Mapping[str, Any], environment: Mapping[str, str], progress: Progress) -> Session:
@@ -113,7 +116,7 @@ def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *,
     base = _base(around)
     settings = settle(given, os.path.commonpath(paths), environment, base)
     inside = (base,) if repository_of(base) else tuple(repository_of(path) or path for path in around)
-    targets, warnings = _targets(settings, places)
+    targets = _targets(settings, places)
     return Request(
         settings,
         base,
@@ -124,7 +127,7 @@ def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *,
         targets,
         places,
         CacheFile(cache_folder(environment) if settings["cache"] else "", base),
-        warnings,
+        (),
     )
 
 
@@ -171,6 +174,7 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
         DistroData(target, knowledge.of(target.distro), _underlays(settings, target.distro, base, machine)[0])
         for target in request.targets[1:]
     ]
+    excluder = Excluder(settings["exclude"])
     loader = Loader(
         workspace or request.disk,
         request.roots,
@@ -179,12 +183,12 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
         underlays=underlays,
         knowledge=knowledge,
         others=others,
-        exclude=_excluder(settings["exclude"]),
+        exclude=excluder,
         jobs=settings["jobs"],
         cache=FactCache(request.cache, () if request.inside == (request.base,) else request.inside),
         progress=progress,
     )
-    return Session(loader, settings, knowledge, base, request.roots, (*request.warnings, *unread), request.cache)
+    return Session(loader, settings, knowledge, base, request.roots, (*request.warnings, *unread), request.cache, excluder)
 
 
 _WITHOUT_EFFECT = frozenset((
@@ -279,22 +283,17 @@ def _base(paths: Sequence[str]) -> str:
     return repository_of(common) or common
 
 
-def _targets(settings: Settings, places: Sequence[str]) -> tuple[tuple[TargetDistro, ...], tuple[str, ...]]:
-    """Return the distributions to check for, and warnings.
-
-    Raises UsageError for an unknown distribution that was not set by ROS_DISTRO.
-    """
+def _targets(settings: Settings, places: Sequence[str]) -> tuple[TargetDistro, ...]:
+    """Return the distributions to check for. Raises UsageError for a distribution without data."""
     names = list(dict.fromkeys(name for name in settings["distro"] if name))
     origin = settings.origin("distro")
     if not names:
-        return (TargetDistro(newest_lts(places), "newest LTS", explicit=False),), ()
+        return (TargetDistro(newest_lts(places), "newest LTS", explicit=False),)
     available = [distro.name for distro in distros(places)]
-    unknown = next((name for name in names if name not in available), "")
-    if unknown and origin != "ROS_DISTRO":
-        raise UsageError(f"{origin}: {_unknown_distro(unknown, available)}")
-    warning = f"unknown distribution '{unknown}' in ROS_DISTRO; available: {', '.join(available)}"
-    targets = [TargetDistro(name, origin, others=tuple(other for other in names if other != name)) for name in names]
-    return tuple(targets), (warning,) if unknown else ()
+    if unknown := next((name for name in names if name not in available), ""):
+        remedy = "; pass --distro" if origin == "ROS_DISTRO" else ""
+        raise UsageError(f"{settings.place('distro', unknown)}: {_unknown_distro(unknown, available)}{remedy}")
+    return tuple([TargetDistro(name, origin, others=tuple(other for other in names if other != name)) for name in names])
 
 
 def _unknown_distro(name: str, available: Sequence[str]) -> str:
@@ -302,11 +301,3 @@ def _unknown_distro(name: str, available: Sequence[str]) -> str:
 
     kind, hint = ("end-of-life", "") if has_ended(name) else ("unknown", did_you_mean(similar_names(name, available)))
     return f"{kind} distribution '{name}'{hint} (available: {', '.join(available)})"
-
-
-def _excluder(patterns: Sequence[str]) -> Callable[[str], bool]:
-    if not patterns:
-        return lambda path: False
-    from ros_lint.engine.selection import matches  # noqa: PLC0415
-
-    return lambda path: any(matches(path, pattern) for pattern in patterns)

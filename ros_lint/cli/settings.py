@@ -45,11 +45,17 @@ class Setting(NamedTuple):
 class Settings:
     """The values of all options with their origins: ``settings["fail-on"]``, ``settings.origin("fail-on")``.
 
-    ``warnings`` are messages about settings in the configuration file that have no effect.
+    ``warnings`` are messages about settings in the configuration file that have no effect. ``file`` is the origin of values in
+    the configuration file, ``folder`` the absolute folder of the file, and ``text`` its text.
     """
 
-    def __init__(self, values: Mapping[str, Setting], warnings: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, values: Mapping[str, Setting], warnings: tuple[str, ...] = (), file: str = "", folder: str = "", text: str = ""
+    ) -> None:
         self._values = values
+        self._file = file
+        self._folder = folder
+        self._text = text
         self.warnings = warnings
 
     def __getitem__(self, name: str) -> Any:
@@ -58,6 +64,19 @@ class Settings:
     def origin(self, name: str) -> str:
         """Return the origin of an option's value: a command-line option, the path of a file, a variable, or "default"."""
         return self._values[name].origin
+
+    def place(self, name: str, value: str) -> str:
+        """Return where ``value`` of an option was set: the origin of the option, for a file with the line of the value."""
+        origin = self.origin(name)
+        key = _key(self._text, name)
+        if key is None or origin != self._file:
+            return origin
+        word = re.compile(rf"(?<![\w-])[\"']?{re.escape(value)}[\"']?(?![\w-])").search(self._text, key.end())
+        return f"{origin}:{self._text.count(chr(10), 0, word.start() if word else key.end()) + 1}"
+
+    def folder(self, name: str) -> str:
+        """Return the absolute folder of the configuration file that sets an option, "" if no file sets it."""
+        return self._folder if self.origin(name) == self._file else ""
 
     def show(self) -> str:
         """Return the output of ``--show-settings``: one line for each option with its value and origin."""
@@ -76,7 +95,7 @@ def settle(arguments: Mapping[str, Any], start: str, environment: Mapping[str, s
     path = "" if isolated else str(arguments.get("config") or "") or find(start)
     if arguments.get("config") and not os.path.isfile(path):
         raise ConfigError(f"{path}: no such configuration file")
-    from_file, warnings = read(path) if path else ({}, ())
+    from_file, warnings, text = read(path) if path else ({}, (), "")
     shown = os.path.relpath(path, display) if path and display else path
     values: dict[str, Setting] = {}
     for option in OPTIONS:
@@ -88,7 +107,7 @@ def settle(arguments: Mapping[str, Any], start: str, environment: Mapping[str, s
             values[option.name] = Setting(_from_environment(option, variable), option.environment)
         else:
             values[option.name] = Setting(option.default, "default")
-    return Settings(values, warnings)
+    return Settings(values, warnings, shown, os.path.dirname(os.path.abspath(path)) if path else "", text)
 
 
 def find(start: str) -> str:
@@ -106,8 +125,11 @@ def find(start: str) -> str:
     return ""
 
 
-def read(path: str) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Return the validated settings in the configuration file ``path``, and warnings. Raises ConfigError."""
+def read(path: str) -> tuple[dict[str, Any], tuple[str, ...], str]:
+    """Return the validated settings in the configuration file ``path``, warnings, and the text of the file.
+
+    Raises ConfigError.
+    """
     try:
         data = files.read(path, _MOST_BYTES)
     except OSError as error:
@@ -120,7 +142,7 @@ def read(path: str) -> tuple[dict[str, Any], tuple[str, ...]]:
     text = data.decode("utf-8", "replace")
     without_effect = [name for name in table if name in BY_NAME and BY_NAME[name].loads_code]
     settings = {name: _checked(path, text, name, value) for name, value in table.items() if name not in without_effect}
-    return settings, tuple([_without_effect(path, text, name) for name in without_effect])
+    return settings, tuple([_without_effect(path, text, name) for name in without_effect]), text
 
 
 def _without_effect(path: str, text: str, name: str) -> str:
@@ -206,10 +228,14 @@ def _is_words(value: Any) -> bool:
 
 
 def _place(path: str, text: str, name: str) -> str:
-    match = re.search(
-        rf"^[ \t]*[\"']?{re.escape(name)}[\"']?[ \t]*(?:=|\.)|^[ \t]*\[[^\]\n]*\b{re.escape(name)}", text, re.MULTILINE
-    )
-    return f"{path}:{text.count(chr(10), 0, match.start()) + 1}" if match else path
+    key = _key(text, name)
+    return f"{path}:{text.count(chr(10), 0, key.start()) + 1}" if key else path
+
+
+def _key(text: str, name: str) -> re.Match[str] | None:
+    """Return the match of a key or table in a configuration file with the given text, None if there is none."""
+    pattern = rf"^[ \t]*[\"']?{re.escape(name)}[\"']?[ \t]*(?:=|\.)|^[ \t]*\[[^\]\n]*\b{re.escape(name)}"
+    return re.search(pattern, text, re.MULTILINE)
 
 
 def _relative(option: CliOption, value: Any, path: str) -> Any:

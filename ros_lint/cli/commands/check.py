@@ -135,11 +135,13 @@ def _report(request: Request, progress: Progress) -> Report:
         return cached
     session = open_session(request, progress.update, *(recorded if cache else disks))
     from ros_lint.cli.checking import check_workspaces  # noqa: PLC0415  (not needed for a cached report)
+    from ros_lint.cli.patterns import without_effect  # noqa: PLC0415
     from ros_lint.cli.selected_packages import selected_folders  # noqa: PLC0415
 
     workspaces = session.loader.load_all()
     folders, warnings = selected_folders(request.settings, session.roots, lambda: workspaces)
-    report = check_workspaces(session, workspaces, folders, warnings)
+    patterns = without_effect(session.settings, session.excluder, session.base, session.roots, workspaces[0])
+    report = check_workspaces(session, workspaces, folders, (*warnings, *patterns))
     cache.store(recorded, report)
     return report
 

@@ -13,10 +13,10 @@ from ros_lint.engine.fix_trials import FixTrials
 from ros_lint.engine.fixing import fix
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from ros_lint.cli.session import Session
-    from ros_lint.engine.report import Report
+    from ros_lint.engine.report import Issue, Report
 
 
 def run(session: Session) -> tuple[Report, int]:
@@ -28,7 +28,11 @@ def run(session: Session) -> tuple[Report, int]:
     settings = session.settings
     rules = registry.load(settings["plugins"])
     folders, warnings = selected_folders(settings, session.roots, session.loader.load_all)
-    trials = FixTrials(session.loader, folders, selection_of(settings), rules, unsafe=settings["unsafe-fixes"])
+    only = {rule.name for selector in settings["fix-only"] for rule in registry.matching(rules, selector)}
+    unsafe = settings["unsafe-fixes"]
+    trials = FixTrials(
+        session.loader, folders, selection_of(settings), rules, unsafe=unsafe, only=only if settings["fix-only"] else None
+    )
 
     def report(changed: Mapping[str, bytes]) -> Report:
         return check_workspaces(session, trials.trial(changed).workspaces, folders, warnings, changed)
@@ -46,7 +50,20 @@ def run(session: Session) -> tuple[Report, int]:
         print(f"ros-lint: {error}", file=sys.stderr)
         return report({path: result.changed[path] for path in error.written}), 2
     print(f"ros-lint: {_summary(len(result.applied), len(result.changed))}", file=sys.stderr)
+    if settings["show-fixes"]:
+        for line in _listed(result.applied):
+            print(f"  {line}", file=sys.stderr)
     return report(result.changed), 0
+
+
+def _listed(applied: Iterable[Issue]) -> list[str]:
+    """Return a line for each applied fix, sorted: the edited files, the title of the fix, and the rule."""
+    lines = []
+    for issue in applied:
+        assert issue.finding.fix is not None
+        paths = ", ".join(dict.fromkeys(edit.span.path for edit in issue.finding.fix.edits))
+        lines.append(f"{paths}: {issue.finding.fix.title} [{issue.rule.name}]")
+    return sorted(lines)
 
 
 def _summary(count: int, files: int) -> str:
