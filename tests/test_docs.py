@@ -76,7 +76,7 @@ def test_settings_examples_are_valid(document: Path, tmp_path: Path) -> None:
         if kind != "toml" or "project.entry-points" in body:
             continue
         (tmp_path / "ros-lint.toml").write_text(body, "utf-8")
-        settings, warnings = read(str(tmp_path / "ros-lint.toml"))
+        settings, warnings, _ = read(str(tmp_path / "ros-lint.toml"))
         assert settings
         assert not warnings
 
