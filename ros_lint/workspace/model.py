@@ -124,7 +124,8 @@ class Package(NamedTuple):
     unreached_modules: frozenset[str] = frozenset()
     """Installed Python files that import other packages, but that no program, launch file, script or test of the package imports.
 
-    Paths are relative to the package. Modules that other packages import are left out.
+    Paths are relative to the package. Modules that other packages import are left out. In a package without programs, only
+    files that Python 3 cannot import are listed.
     """
     pip_requirements: frozenset[str] = frozenset()
     """Normalized names of the Python distributions that requirement files and setup.py name.

@@ -106,6 +106,7 @@ The severity is lower if the package works where it is built, launched and teste
 - warning for public headers that the package itself does not compile, because dependents that declare the package build;
 - warning for imports whose names the file never uses: remove the import, or declare the package; the fix is unsafe;
 - warning for imports in modules that no program, launch file, script or test of the package imports, if it has programs;
+- warning for imports in modules that Python 3 cannot import: with a dash in the path, or with the syntax of Python 2;
 - warning for files that a model looks up in `<xacro:if value="$(arg x)">`, if the default of the argument `x` is false.
 """
 

@@ -6,8 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.base.auxiliary_files import TEST_FOLDERS
 from ros_lint.base.paths import folders_of, join
+from ros_lint.base.text import Text
 from ros_lint.base.tree import Tree, text_of
 from ros_lint.collectors.python.imported_paths import imported_paths
+from ros_lint.collectors.python.source_errors import NotPythonError, TooDeepError
+from ros_lint.collectors.python.syntax import parse
 from ros_lint.facts.sources import Use
 from ros_lint.workspace.usage.package_files import PackageSource
 
@@ -19,7 +22,7 @@ def unreached_modules(tree: Tree, source: PackageSource, uses: Iterable[Use], ot
 
     Paths are relative to the package. Started files are entry points, installed programs, launch files, tests, and Python files
     outside of the installed Python packages. Reached files are the started files, the files that they import, and the modules
-    that the packages ``others`` import. The result is empty if:
+    that the packages ``others`` import. The result contains only modules that cannot be imported if:
 
     - no file is started by name, as in a library,
     - a reached file computes names of imported modules,
@@ -30,11 +33,31 @@ def unreached_modules(tree: Tree, source: PackageSource, uses: Iterable[Use], ot
     importing = {use.span.path for use in uses if use.via == "import"}
     candidates = [module for module in modules if join(source.path, module) in importing]
     started = frozenset(_started(source, modules)) if candidates else frozenset()
-    if not started or started.issuperset(candidates):
+    if started.issuperset(candidates):
         return frozenset()
     outside = [file for file in source.files if file.endswith(".py") and _top(file) not in tops and file != "setup.py"]
-    reached = _reached(tree, source, [*started, *outside, *_imported_elsewhere(modules, tops, others)])
-    return frozenset() if reached is None else frozenset(candidates) - reached
+    starts = [*started, *outside, *_imported_elsewhere(modules, tops, others)]
+    reached = _reached(tree, source, starts) if started else None
+    if reached is None:
+        reached = started.union([module for module in candidates if _is_importable(tree, source, module)])
+    return frozenset(candidates) - reached
+
+
+def _is_importable(tree: Tree, source: PackageSource, module: str) -> bool:
+    """Return whether Python 3 can import the file ``module``.
+
+    It cannot if the path contains a dash, or if the source has the syntax of Python 2, such as ``print x``.
+    """
+    if not all(part.isidentifier() for part in module.removesuffix(".py").split("/")):
+        return False
+    text = text_of(tree, join(source.path, module))
+    try:
+        parse(text or Text(module, ""))
+    except TooDeepError:
+        return True
+    except NotPythonError:
+        return False
+    return True
 
 
 def _top(file: str) -> str:
