@@ -317,6 +317,14 @@ class References:
             ):
                 self._add("package", package, "", value, value, bool(conditions), by_default=False)
 
+    def note_passed(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
+        """Add a reference to a package that launch looks up for a substitution, unless the file refers to the package elsewhere.
+
+        The substitution is passed to a function that is not interpreted.
+        """
+        if all(reference.package != package for reference in self.references):
+            self.note_look_up(package, value, conditions)
+
     def note_opened(self, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:
         """Add a reference to a file that the launch file opens while it is loaded, before any action runs."""
         with self._under(conditions) as applies:

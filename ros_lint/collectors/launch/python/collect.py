@@ -17,6 +17,7 @@ from ros_lint.collectors.launch.presence_checks import is_guarded_by_presence
 from ros_lint.collectors.launch.python.actions import LAUNCHED, walker
 from ros_lint.collectors.launch.python.argument_checks import dropped_paths, rejected_arguments
 from ros_lint.collectors.launch.python.import_checks import misplaced_imports
+from ros_lint.collectors.launch.python.library import PACKAGE_SUBSTITUTIONS
 from ros_lint.collectors.launch.python.meaning import LaunchLibraries
 from ros_lint.collectors.launch.python.runtime_errors import (
     divided_texts,
@@ -28,11 +29,20 @@ from ros_lint.collectors.launch.python.runtime_errors import (
 from ros_lint.collectors.launch.python.substitutions import TextEvaluation, texts
 from ros_lint.collectors.launch.references import References
 from ros_lint.collectors.python.interpreter.machine import Machine
-from ros_lint.collectors.python.interpreter.values import PERHAPS, Frame, Function, Modules, ProgramRaised, Source
+from ros_lint.collectors.python.interpreter.values import (
+    PERHAPS,
+    Conditions,
+    Frame,
+    Function,
+    Modules,
+    ProgramRaised,
+    Source,
+    alternatives,
+)
 from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import read, refusal, span_of
 from ros_lint.collectors.symbolic_text import UNKNOWN
-from ros_lint.facts.launch import LaunchAction, LaunchFile
+from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 _MAX_LENGTH = 250_000
@@ -237,9 +247,23 @@ class _Interpretation:
             value = self._walker.text(package, node, source)
             if value.texts == (package,):
                 references.note_look_up(package, value, conditions)
+        for package, value, conditions in self._passed_look_ups():
+            references.note_passed(package, value, conditions)
         for reason, span in self._walker.unknown_launches:
             references.hide(f"the launched actions are not known: {reason}", span)
         for what, call, source in self._machine.cut_off:
             references.hide(f"the file contains {what}", span_of(source.text, call))
         for opaque in self._opaque:
             references.opaque[opaque] = None
+
+    def _passed_look_ups(self) -> Iterator[tuple[str, LaunchValue, Conditions]]:
+        """Yield the packages of substitutions that code outside of the interpretation gets, with place and conditions.
+
+        Such code probably builds an action with the substitution, so that launch looks up the package.
+        """
+        for launch_object in self._machine.made:
+            if launch_object.escaped and launch_object.name in PACKAGE_SUBSTITUTIONS:
+                for alternative in alternatives(launch_object.get(0, "package"), launch_object.conditions):
+                    name = alternative.value
+                    if isinstance(name, str) and name in self._machine.named:
+                        yield str(name), self._walker.text(str(name), *self._machine.named[name]), alternative.conditions

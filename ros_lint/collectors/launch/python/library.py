@@ -42,6 +42,10 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Frame, Source
 
 
+PACKAGE_SUBSTITUTIONS = frozenset({"FindPackage", "FindPackagePrefix", "FindPackageShare"})
+"""Substitutions that look up the package in their first argument."""
+
+
 def call_library(
     machine: Interpreter,
     callee: str | Method,
@@ -77,7 +81,7 @@ def _create(call: LibraryCall, name: str) -> LaunchObject:
         entities = launch_object.get(0, "initial_entities")
         entity_list = items(call.machine, entities) if entities is not None else []
         launch_object.entities = entity_list if entity_list is not None else [entities]
-    elif name in ("FindPackageShare", "FindPackagePrefix", "FindPackage"):
+    elif name in PACKAGE_SUBSTITUTIONS:
         _note(call, launch_object.get(0, "package"), launch_object.written(0, "package"), eager=False)
     elif name == "ExecutableInPackage":
         _note(call, launch_object.get(1, "package"), launch_object.written(1, "package"), eager=False)
@@ -217,7 +221,7 @@ def _method(call: LibraryCall, owner: LaunchObject) -> Value:
         return None
     if name in ("perform", "toxml", "toprettyxml"):
         return call.result(machine.texts(owner))
-    if name == "find" and owner.name in ("FindPackageShare", "FindPackagePrefix", "FindPackage"):
+    if name == "find" and owner.name in PACKAGE_SUBSTITUTIONS:
         return (_share if owner.name == "FindPackageShare" else _prefix)(call)
     if name == "evaluate":
         conditions = conditions_of(owner)
