@@ -93,7 +93,7 @@ def test_why_prints_every_path_with_tag_and_line() -> None:
 
 
 def test_why_follows_dependencies_of_released_packages() -> None:
-    out, output, code = why.run(workspace(CHAIN), "top", "rcl", 1)
+    out, output, code = why.run(workspace(CHAIN), "top", "rcl", most=1)
     assert (output, code) == ("", 0)
     head = "'top' depends on 'rcl' through at least 1 path:\n\n1. top -> middle -> rclcpp -> rcl\n"
     assert out.startswith(head)

@@ -115,13 +115,22 @@ def _add_workspace(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_order(parser: argparse.ArgumentParser) -> None:
+    _add_answer_format(parser)
+    _add_paths_and_common(parser)
+
+
+def _add_answer_format(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
+
+
+def _add_paths_and_common(parser: argparse.ArgumentParser) -> None:
     _add_paths(parser)
     for option in _COMMON_OPTIONS:
         _add_option(parser, option)
 
 
 def _add_graph(parser: argparse.ArgumentParser) -> None:
-    _add_order(parser)
+    _add_paths_and_common(parser)
     parser.add_argument("--format", choices=("dot", "mermaid", "json", "html"), default="dot", help="output format")
     parser.add_argument("--focus", metavar="PKG", help="print only a package, its dependencies and its dependents")
     parser.add_argument("--depth", type=int, metavar="N", help="with --focus, only packages at most N dependencies away")
@@ -135,12 +144,13 @@ def _add_why(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("package", help="the package with the dependency")
     parser.add_argument("dependency", help="the package or rosdep key it depends on")
     parser.add_argument("--explain-silence", action="store_true", help="explain why the dependency rules report nothing")
+    _add_answer_format(parser)
     _add_workspace(parser)
 
 
 def _add_explain_package(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("package", help="the package to explain")
-    parser.add_argument("--format", choices=("text", "json"), default="text", help="output format")
+    _add_answer_format(parser)
     _add_workspace(parser)
 
 

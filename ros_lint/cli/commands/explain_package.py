@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
-from ros_lint.cli.commands.output import where
+from ros_lint.cli.commands.output import document, where
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.visibility import Facet
 
@@ -39,7 +39,7 @@ def run(workspace: Workspace, name: str, form: str = "text") -> tuple[str, str, 
     return "\n".join(_text(package) for package in packages), "", 0
 
 
-_HEADINGS = {"cannot be seen through": "could not be analysed"}
+_HEADINGS = {"not_analysed": "could not be analysed"}
 """Headings of the text format that differ from the keys of the JSON format."""
 
 
@@ -62,7 +62,7 @@ def _sections(package: Package, most: int) -> Iterator[tuple[str, list[_Row]]]:
     yield "uses", list(_uses(package, most))
     yield "provides", list(dict.fromkeys(_provides(package)))  # a script can be evaluated twice, in two folders
     yield "installs", list(_installs(package))
-    yield "cannot be seen through", list(_hidden(package))
+    yield "not_analysed", list(_hidden(package))
 
 
 def _declares(package: Package) -> Iterator[_Row]:
@@ -134,21 +134,19 @@ def _facets(flags: Facet) -> list[str]:
 
 
 def _json(workspace: Workspace, packages: Iterable[Package]) -> str:
-    import json  # noqa: PLC0415
-
     documents = [
         {
             "name": package.name,
             "path": package.path,
             "type": package.type,
             **{
-                title.replace(" ", "-"): [{"name": row.name, "note": row.note, **where(row.span)} for row in rows]
+                title: [{"name": row.name, "note": row.note, **where(row.span)} for row in rows]
                 for title, rows in _sections(package, len(package.uses))
             },
         }
         for package in packages
     ]
-    return json.dumps({"distro": workspace.target.distro, "packages": documents}, indent=2, ensure_ascii=False) + "\n"
+    return document({"distro": workspace.target.distro, "packages": documents})
 
 
 def _no_such(workspace: Workspace, name: str) -> str:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Literal
 
 from ros_lint.analysis.graph.cycles import cycles
 from ros_lint.cli.commands.graph_part import GraphOptions, edges_in_cycles, is_test_only, part_of_graph
-from ros_lint.cli.commands.output import label, where
+from ros_lint.cli.commands.output import document, label, where
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 Format = Literal["dot", "mermaid", "json", "html"]
 FORMATS: tuple[Format, ...] = ("dot", "mermaid", "json", "html")
 _WHOLE_GRAPH = GraphOptions()
-
-SCHEMA_VERSION = 1
 
 
 def run(
@@ -97,10 +95,7 @@ def _mermaid(graph: Graph) -> Iterator[str]:
 
 
 def _json(graph: Graph, figures: Mapping[str, Metrics]) -> str:
-    import json  # noqa: PLC0415  (only for this format)
-
-    document = {
-        "schema_version": SCHEMA_VERSION,
+    content = {
         "packages": [
             {
                 "name": name,
@@ -125,7 +120,7 @@ def _json(graph: Graph, figures: Mapping[str, Metrics]) -> str:
             {"packages": cycle.names, "cycle": cycle.cycle, "cut": cycle.cut, "certain": cycle.certain} for cycle in cycles(graph)
         ],
     }
-    return json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+    return document(content)
 
 
 def _table(figures: Mapping[str, Metrics]) -> Iterator[str]:

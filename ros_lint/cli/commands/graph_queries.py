@@ -28,16 +28,21 @@ def _graph(workspace: Workspace, options: Mapping[str, Any]) -> CommandOutput:
     return graph.run(workspace, options["format"], chosen, metrics=options.get("metrics", False), title=title)
 
 
+def _why(workspace: Workspace, options: Mapping[str, Any]) -> CommandOutput:
+    names = options["package"], options["dependency"]
+    if not options.get("explain-silence"):
+        return why.run(workspace, *names, options["format"])
+    if options["format"] != "text":
+        raise UsageError("--explain-silence prints text only; remove --format")
+    return explain_silence.run(workspace, *names)
+
+
 _COMMANDS: Mapping[str, Callable[[Workspace, Mapping[str, Any]], CommandOutput]] = {
-    "order": lambda workspace, options: order.run(workspace),
-    "overlay": lambda workspace, options: overlay.run(workspace),
+    "order": lambda workspace, options: order.run(workspace, options["format"]),
+    "overlay": lambda workspace, options: overlay.run(workspace, options["format"]),
     "graph": _graph,
     "explain-package": lambda workspace, options: explain_package.run(workspace, options["package"], options["format"]),
-    "why": lambda workspace, options: (
-        explain_silence.run(workspace, options["package"], options["dependency"])
-        if options.get("explain-silence")
-        else why.run(workspace, options["package"], options["dependency"])
-    ),
+    "why": _why,
 }
 
 _WITH_SOURCES = ("explain-package", "why")

@@ -1,4 +1,4 @@
-"""``ros-lint order``: print the names of the packages in build order, one per line."""
+"""``ros-lint order``: print the names of the packages in build order, one per line, or as JSON."""
 
 from __future__ import annotations
 
@@ -6,24 +6,33 @@ from typing import TYPE_CHECKING
 
 from ros_lint.analysis.graph.cycles import cycles
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
+from ros_lint.cli.commands.output import document
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from ros_lint.analysis.graph.cycles import Cycle
     from ros_lint.analysis.graph.dependency_graph import Graph
     from ros_lint.workspace.model import Workspace
 
 
-def run(workspace: Workspace) -> tuple[str, str, int]:
-    """Return standard output, standard error and the exit code.
+def run(workspace: Workspace, form: str = "text") -> tuple[str, str, int]:
+    """Return standard output, standard error and the exit code. ``form`` is the output format, "text" or "json".
 
     The code is 1 if colcon would reject the workspace because of a cycle or of duplicate package names. The packages that
     can be ordered are printed nevertheless.
     """
     graph = dependency_graph(workspace)
     messages = [*_cycles(graph), *_behind_cycles(graph), *_duplicates(graph)]
-    return "".join(f"{name}\n" for name in graph.order.names), "".join(f"{line}\n" for line in messages), int(bool(messages))
+    code = int(bool(messages))
+    if form == "json":
+        return _json(graph, messages), "", code
+    return "".join(f"{name}\n" for name in graph.order.names), "".join(f"{line}\n" for line in messages), code
+
+
+def _json(graph: Graph, messages: Sequence[str]) -> str:
+    packages = [{"name": name, "paths": [package.path for package in graph.places[name]]} for name in graph.order.names]
+    return document({"packages": packages, "complete": not messages, "problems": list(messages)})
 
 
 def _cycles(graph: Graph) -> Iterator[str]:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.cli.commands.output import document
+
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from ros_lint.workspace.model import Workspace
 
@@ -20,19 +22,38 @@ class _LayerEntry(NamedTuple):
     """Name under which colcon builds a package of the workspace; "" in other layers."""
 
 
-def run(workspace: Workspace) -> tuple[str, str, int]:
-    """Return standard output, standard error and the exit code, which is 0.
+def run(workspace: Workspace, form: str = "text") -> tuple[str, str, int]:
+    """Return standard output, standard error and the exit code, which is 0. ``form`` is the output format, "text" or "json".
 
     The topmost layer has the package in use: the workspace, then the underlays in their order, then the released
     packages. Raises KnowledgeError.
     """
-    lines: list[str] = []
     names = {*workspace.by_name, *(name for underlay in workspace.world.underlays for name in underlay.packages)}
-    for name in sorted(names):
-        entries = list(_entries(workspace, name))
-        if len({entry.layer for entry in entries}) > 1:
-            lines += ["", *_lines(name, entries)] if lines else _lines(name, entries)
-    return "".join(f"{line}\n" for line in lines) or "No package exists in more than one layer.\n", "", 0
+    layers = {name: list(_entries(workspace, name)) for name in sorted(names)}
+    layers = {name: entries for name, entries in layers.items() if len({entry.layer for entry in entries}) > 1}
+    if form == "json":
+        return _json(workspace, layers), "", 0
+    blocks = ["".join(f"{line}\n" for line in _lines(name, entries)) for name, entries in layers.items()]
+    return "\n".join(blocks) or "No package exists in more than one layer.\n", "", 0
+
+
+def _json(workspace: Workspace, layers: Mapping[str, list[_LayerEntry]]) -> str:
+    packages = [
+        {
+            "name": name,
+            "layers": [
+                {
+                    "layer": entry.layer,
+                    "where": entry.where,
+                    "version": entry.version,
+                    "in_use": entry.layer == entries[0].layer,
+                }
+                for entry in entries
+            ],
+        }
+        for name, entries in layers.items()
+    ]
+    return document({"distro": workspace.target.distro, "packages": packages})
 
 
 def _entries(workspace: Workspace, name: str) -> Iterator[_LayerEntry]:

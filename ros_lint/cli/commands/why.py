@@ -1,14 +1,15 @@
-"""``ros-lint why A B``: print the paths by which package A depends on B, with the manifest line of each edge."""
+"""``ros-lint why A B``: print the paths by which package A depends on B, with the manifest line of each edge, or as JSON."""
 
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.analysis.dependencies.explain import used_in
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
 from ros_lint.base.graph_paths import GraphPaths, paths
 from ros_lint.base.suggestions import did_you_mean, similar_names
+from ros_lint.cli.commands.output import document, where
 from ros_lint.facts.manifest import DEPENDENCY_KINDS
 
 if TYPE_CHECKING:
@@ -32,8 +33,8 @@ class _EdgeReason(NamedTuple):
     condition: str = ""
 
 
-def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str, str, int]:
-    """Return standard output, standard error and the exit code.
+def run(workspace: Workspace, start: str, end: str, form: str = "text", most: int = 10) -> tuple[str, str, int]:
+    """Return standard output, standard error and the exit code. ``form`` is the output format, "text" or "json".
 
     These dependencies are followed:
 
@@ -49,16 +50,49 @@ def run(workspace: Workspace, start: str, end: str, most: int = 10) -> tuple[str
         return "", "".join(_no_such(workspace, name) for name in unknown), 2
     model = _DependencyModel(workspace, start)
     result = paths(model.needs, start, end, most)
-    if not result.paths:
-        back = paths(_DependencyModel(workspace, end).needs, end, start, 1).paths
-        uses = [use for package in workspace.called(start) for use in package.uses if end in use.providers]
-        if uses:
-            hint = f" ('{end}' depends on '{start}': see 'ros-lint why {end} {start}')" if back else ""
-            head = f"'{start}' uses '{end}', but declares neither it nor anything that depends on it{hint}:"
-            return "".join(f"{line}\n" for line in (head, *(f"   {line}" for line in used_in(uses)))), "", 1
-        hint = f"; but '{end}' depends on '{start}': see 'ros-lint why {end} {start}'" if back else ""
-        return f"'{start}' does not depend on '{end}'{hint}\n", "", 1
-    return "".join(f"{line}\n" for line in _path_lines(model, result, start, end)), "", 0
+    code = 0 if result.paths else 1
+    if form == "json":
+        return _json(model, result, start, end), "", code
+    lines = _path_lines(model, result, start, end) if result.paths else _no_path(workspace, start, end)
+    return "".join(f"{line}\n" for line in lines), "", code
+
+
+def _no_path(workspace: Workspace, start: str, end: str) -> Iterator[str]:
+    """Yield the lines for a package ``start`` that does not depend on ``end``."""
+    depends_back = bool(paths(_DependencyModel(workspace, end).needs, end, start, 1).paths)
+    back = f"'{end}' depends on '{start}': see 'ros-lint why {end} {start}'" if depends_back else ""
+    uses = [use for package in workspace.called(start) for use in package.uses if end in use.providers]
+    if uses:
+        hint = f" ({back})" if back else ""
+        yield f"'{start}' uses '{end}', but declares neither it nor anything that depends on it{hint}:"
+        yield from (f"   {line}" for line in used_in(uses))
+    else:
+        yield f"'{start}' does not depend on '{end}'{f'; but {back}' if back else ''}"
+
+
+def _json(model: _DependencyModel, result: GraphPaths, start: str, end: str) -> str:
+    """Return the JSON format. ``uses`` are the places in the sources of ``start`` that use ``end``."""
+    return document(
+        {
+            "distro": model.workspace.target.distro,
+            "package": start,
+            "dependency": end,
+            "paths": [[_json_edge(model, *edge) for edge in pairwise(path)] for path in result.paths],
+            "more_paths": result.more,
+            "uses": _json_uses(model, start, end),
+        }
+    )
+
+
+def _json_edge(model: _DependencyModel, name: str, dependency: str) -> dict[str, Any]:
+    reasons = [
+        {"tag": reason.tag, "condition": reason.condition, "place": reason.place} for reason in model.reasons(name, dependency)
+    ]
+    return {"package": name, "dependency": dependency, "reasons": reasons, "uses": _json_uses(model, name, dependency)}
+
+
+def _json_uses(model: _DependencyModel, name: str, dependency: str) -> list[dict[str, Any]]:
+    return [{"what": what, **where(span)} for what, span in model.uses(name, dependency)]
 
 
 class _DependencyModel:

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ros_lint.cli.commands.output import label, where
+from ros_lint.cli.commands.output import document, label, where
 from ros_lint.collectors.symbolic_text import UNKNOWN, readable
 
 if TYPE_CHECKING:
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
     from ros_lint.collectors.launch.expand import Argument, Expansion, Started
     from ros_lint.facts.launch import LaunchCondition, LaunchFile
-
-SCHEMA_VERSION = 1
 
 _MOST_UNKNOWN = 20
 
@@ -173,11 +171,8 @@ def _summary(expansion: Expansion) -> str:
 
 def json(expanded: ExpandedFile) -> str:
     """Return the JSON format; see the module for its keys."""
-    import json as library  # noqa: PLC0415  (only for this format)
-
     expansion = expanded.expansion
-    document = {
-        "schema_version": SCHEMA_VERSION,
+    content = {
         "file": expanded.file.path,
         "arguments": [
             {
@@ -192,7 +187,7 @@ def json(expanded: ExpandedFile) -> str:
         "unknown": [{"reason": reason, **where(span)} for reason, span in _unknown(expanded)],
         "complete": expansion.complete,
     }
-    return library.dumps(document, indent=2, ensure_ascii=False) + "\n"
+    return document(content)
 
 
 def _nested(started: Sequence[Started], depth: int, expanded: ExpandedFile) -> list[dict[str, Any]]:
