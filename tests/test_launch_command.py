@@ -1,14 +1,14 @@
 """``ros-lint launch``."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
 
 from ros_lint.base.tree import MemoryTree
 from ros_lint.cli import main as cli
-from ros_lint.cli.commands.launch.launch import LaunchRequest, answer, parse_launch_request
+from ros_lint.cli.commands.launch.launch import LaunchOptions, LaunchRequest, answer, parse_launch_request
 from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
 from ros_lint.cli.session import UsageError
 from ros_lint.knowledge.underlays import in_tree
@@ -16,7 +16,18 @@ from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.target import TargetDistro
 from tests.packages import manifest_text
 
-INSTALLS = "project({0})\nfind_package(ament_cmake REQUIRED)\ninstall(DIRECTORY {1} DESTINATION share/{0})\nament_package()\n"
+INSTALLS = """\
+project({0})
+find_package(ament_cmake REQUIRED)
+install(DIRECTORY {1} DESTINATION share/{0})
+install(PROGRAMS $ENV{{PROGRAMS}} DESTINATION lib/{0})
+rclcpp_components_register_nodes($ENV{{LIBRARY}} $ENV{{CLASSES}})
+ament_package()
+"""
+"""A build script that installs folders, and programs and components with unknown names."""
+
+
+EVERYTHING = LaunchOptions()
 
 
 def package(name: str, files: Mapping[str, str], folders: str = "launch") -> dict[str, str]:
@@ -32,7 +43,11 @@ def xml(body: str) -> str:
 
 
 def ask(
-    files: Mapping[str, str], *words: str, form: str = "tree", underlay: Mapping[str, str] | None = None
+    files: Mapping[str, str],
+    *words: str,
+    form: str = "tree",
+    underlay: Mapping[str, str] | None = None,
+    options: LaunchOptions = EVERYTHING,
 ) -> tuple[str, str, int]:
     """Return standard output, standard error and exit code of the command for a workspace in memory."""
     tree = MemoryTree(files)
@@ -41,7 +56,8 @@ def ask(
     loader = Loader(tree, ("",), TargetDistro("jazzy", "--distro"), underlays=underlays)
     request = parse_launch_request(words, lambda path: path in files)
     workspace = loader.load()
-    return answer(workspace, LaunchFileLookup(workspace, tree), request, "" if request.package else request.file, form)
+    path = "" if request.package else request.file
+    return answer(workspace, LaunchFileLookup(workspace, tree), request, path, options._replace(form=form))
 
 
 def launch(body: str, *arguments: str) -> list[str]:
@@ -208,7 +224,7 @@ def test_an_include_is_expanded() -> None:
         "    argument robot = r",
         "    node p x",
         "",
-        "1 node, 1 include",
+        "1 node, 1 include for jazzy (--distro)",
     ]
 
 
@@ -352,6 +368,86 @@ def test_json_contains_the_same_as_the_tree() -> None:
     assert (nested["kind"], nested["follows"]) == ("include", "p/launch/inner.launch.xml")
     assert [(item["target"], item["certain"], item["when"]) for item in nested["starts"]] == [(["x"], False, ["if $(env SIM)"])]
     assert (node["target"], node["name"], node["namespace"], node["line"]) == (["y2"], ["n"], ["/"], 2)
+
+
+BROKEN = {
+    "p/package.xml": manifest_text("p"),
+    "p/CMakeLists.txt": (
+        "project(p)\nfind_package(ament_cmake REQUIRED)\nadd_executable(driver_node a.cpp)\n"
+        "install(TARGETS driver_node DESTINATION lib/p)\ninstall(DIRECTORY launch DESTINATION share/p)\nament_package()\n"
+    ),
+    "p/a.cpp": "",
+    "p/launch/a.launch.xml": xml(
+        '<arg name="sim" default="false" description="Use the simulator."><choice value="true"/><choice value="false"/></arg>'
+        '<arg name="host"/>'
+        '<include file="$(dirname)/b.launch.xml"/><node pkg="p" exec="driver" name="d" namespace="arm"/>'
+    ),
+    "p/launch/b.launch.xml": xml('<arg name="rate" default="1"/><node pkg="p" exec="driver_node"/>'),
+}
+
+
+def test_missing_programs_are_marked_and_fail_the_launch() -> None:
+    message = "'p' does not install an executable 'driver'; did you mean 'driver_node'?"
+    output, err, code = ask(BROKEN, "p", "a.launch.xml", "host:=h")
+    assert code == 1
+    assert err == f"ros-lint: p/launch/a.launch.xml:2:177: {message}\n"
+    lines = [line.strip() for line in output.splitlines()]
+    assert lines[lines.index("node p driver as /arm/d") + 1] == f"error: {message}"
+    assert output.count("error: ") == 1
+    document = json.loads(ask(BROKEN, "p", "a.launch.xml", "host:=h", form="json")[0])
+    assert [item["problems"] for item in document["starts"]] == [[], [message]]
+    assert "  style n3 stroke:red" in ask(BROKEN, "p", "a.launch.xml", "host:=h", form="mermaid")[0].splitlines()
+
+
+def test_a_program_that_is_started_under_an_unknown_condition_does_not_fail_the_launch() -> None:
+    files = {**BROKEN, "p/launch/a.launch.xml": xml('<node pkg="p" exec="driver" if="$(env SIM)"/>')}
+    assert ask(files, "p", "a.launch.xml")[1:] == ("", 0)
+
+
+def test_arguments_are_shown_with_descriptions_and_choices() -> None:
+    output, _, _ = ask(BROKEN, "p", "a.launch.xml", "sim:=true", options=LaunchOptions(show_args=True))
+    assert output.splitlines() == [
+        "'sim':",
+        "    Use the simulator.",
+        "    one of: true, false",
+        "    (given: true)",
+        "'host':",
+        "    (required)",
+        "'rate' (of an included file):",
+        "    (default: 1)",
+    ]
+    empty = package("p", {"launch/a.launch.xml": xml("")})
+    assert ask(empty, "p", "a.launch.xml", options=LaunchOptions(show_args=True))[0] == "The launch file has no arguments.\n"
+
+
+@pytest.mark.parametrize(
+    ("options", "shown"),
+    [
+        (LaunchOptions(depth=0), ["include", "node p driver as /arm/d"]),
+        (LaunchOptions(depth=1), ["include", "node p driver_node", "node p driver as /arm/d"]),
+        (LaunchOptions(node="d"), ["node p driver as /arm/d"]),
+        (LaunchOptions(node="/arm/d"), ["node p driver as /arm/d"]),
+        (LaunchOptions(node="driver_node"), ["include", "node p driver_node"]),
+        (LaunchOptions(node="driver_node", depth=0), []),
+    ],
+)
+def test_actions_are_selected_by_depth_and_by_name(options: LaunchOptions, shown: Sequence[str]) -> None:
+    output, _, _ = ask(BROKEN, "p", "a.launch.xml", "host:=h", options=options)
+    lines = [line.strip() for line in output.splitlines()[:-2]]
+    assert [line.partition(" $")[0] for line in lines if line.startswith(("node", "include"))] == shown
+
+
+def test_the_launch_files_of_a_package_are_listed() -> None:
+    output, err, code = ask(BROKEN, "p")
+    assert (err, code) == ("", 0)
+    assert output == "a.launch.xml  p/launch/a.launch.xml\nb.launch.xml  p/launch/b.launch.xml\n"
+    with pytest.raises(UsageError, match="^nothing: no such file, and there is no package 'nothing'"):
+        ask(BROKEN, "nothing")
+    with pytest.raises(UsageError, match="^'q' installs no launch file$"):
+        ask({"q/package.xml": manifest_text("q")}, "q")
+    files = {"share/r/package.xml": manifest_text("r"), "share/r/launch/x.launch.py": "", "share/r/config/x.yaml": ""}
+    underlay = {"share/ament_index/resource_index/packages/r": "", **files}
+    assert ask(BROKEN, "r", underlay=underlay)[0] == "x.launch.py  launch/x.launch.py\n"
 
 
 def test_mermaid_contains_every_file_and_node() -> None:

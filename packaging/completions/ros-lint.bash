@@ -10,7 +10,7 @@ _ros_lint() {
     why) words="-h --help --explain-silence --format -C --workspace --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress" ;;
     graph) words="-h --help --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress --format --focus --depth --external --edges --reduce --metrics" ;;
     explain-package) words="-h --help --format -C --workspace --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress" ;;
-    launch) words="-h --help --format -C --workspace --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress" ;;
+    launch) words="-h --help --format --show-args --depth --node -C --workspace --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress" ;;
     lsp) words="-h --help --distro --underlay --select --extend-select --ignore --pedantic --min-severity --exclude --plugins --jobs --cache --no-cache --config --isolated" ;;
     overlay) words="-h --help --format --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress" ;;
     rules) words="-h --help --format --plugins" ;;

@@ -103,6 +103,8 @@ class LaunchAction(NamedTuple):
     """Places of the names of the launch arguments of an include: one for each of ``arguments``, or () if unknown."""
     choices: tuple[str, ...] = ()
     """Values that a declared launch argument accepts; () if it accepts any value."""
+    description: str = ""
+    """Description of a declared launch argument; "" if there is none or if it is computed."""
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
     """Names and values of the parameters of a node.
 

@@ -80,6 +80,12 @@ class Argument(NamedTuple):
     """Number of includes between the launched file and the declaration."""
     given: bool
     """True if the caller or the including file passes the value, False if the value is the default."""
+    choices: tuple[str, ...] = ()
+    """The values that the argument accepts; () if it accepts any value."""
+    description: str = ""
+    """The description of the argument; "" if there is none or if it is computed."""
+    required: bool = False
+    """True if the argument has no default value."""
 
 
 class Missing(NamedTuple):
@@ -278,7 +284,10 @@ class _Run:
             elif not is_given:
                 self._set(scope, name, self._texts(action.value, scope), scope.certain)
             texts = scope.values[name]
-            self.arguments.append(Argument(name, texts, action.span, self._depth, is_given))
+            required = action.value is None
+            self.arguments.append(
+                Argument(name, texts, action.span, self._depth, is_given, action.choices, action.description, required)
+            )
             if scope.certain and len(texts) == 1 and is_settled(texts[0]) and self._is_refused(texts[0], action):
                 self.refused.append(Refused(name, texts[0], action.choices, action.span))
 

@@ -3,12 +3,14 @@
 The JSON has ``schema_version`` 1, ``file``, and
 
 - ``arguments``: those of the launch file and of included files, each with ``name``, ``values``, ``given`` (true if the
-  command line sets it), ``included`` (true if an included file declares it), ``path``, ``line`` and ``column``;
+  command line sets it), ``included`` (true if an included file declares it), ``description``, ``choices``, ``required``
+  (true if there is no default), ``path``, ``line`` and ``column``;
 - ``starts``: in order, each with ``kind`` (node, component, process, include), ``package``, ``target`` (executable,
   class, command or file), ``name``, ``namespace``, ``container``, ``parameters``, ``remappings``, ``environment``,
   ``arguments``, ``words`` (the command-line arguments of a node), ``later`` (true if a timer or an event starts it),
-  ``certain``, ``when`` (the conditions), ``unknown`` (reasons why something is unknown), ``path``, ``line`` and
-  ``column``; for an include also ``follows`` (the file that was read, or null) and ``starts``;
+  ``certain``, ``when`` (the conditions), ``unknown`` (reasons why something is unknown), ``problems`` (messages about a
+  missing package, executable or class), ``path``, ``line`` and ``column``; for an include also ``follows`` (the file that
+  was read, or null) and ``starts``;
 - ``unknown``: places in these files that could not be analysed, each with ``reason``, ``path``, ``line`` and ``column``;
 - ``complete``: false if the evaluation stopped early, because includes are cyclic or a limit was exceeded.
 
@@ -28,8 +30,10 @@ if TYPE_CHECKING:
 
     from ros_lint.base.text import Span
     from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
+    from ros_lint.cli.commands.launch.marks import Marks
     from ros_lint.collectors.launch.expand import Argument, Expansion, Started
     from ros_lint.facts.launch import LaunchCondition, LaunchFile
+    from ros_lint.workspace.target import TargetDistro
 
 _MOST_UNKNOWN = 20
 
@@ -40,6 +44,8 @@ class ExpandedFile(NamedTuple):
     file: LaunchFile
     expansion: Expansion
     lookup: LaunchFileLookup
+    marks: Marks
+    target: TargetDistro
 
 
 # --- words ---------------------------------------------------------------------------------------------------------
@@ -119,8 +125,33 @@ def tree(expanded: ExpandedFile) -> str:
         lines += ["", "not analysed:"]
         lines += [f"  {span}: {reason}" for reason, span in unknown[:_MOST_UNKNOWN]]
         lines += [f"  and {len(unknown) - _MOST_UNKNOWN} more"] if len(unknown) > _MOST_UNKNOWN else []
-    lines += ["", _summary(expansion)]
+    origin = expanded.target.source if expanded.target.explicit else "assumed; set with --distro"
+    lines += ["", f"{_summary(expansion)} for {expanded.target.distro} ({origin})"]
     return "".join(f"{line}\n" for line in lines)
+
+
+def show_args(expanded: ExpandedFile) -> str:
+    """Return the launch arguments with their descriptions and choices. Those of included files come last, each name once."""
+    arguments: dict[str, Argument] = {}
+    for argument in sorted(expanded.expansion.arguments, key=lambda argument: argument.depth > 0):
+        arguments.setdefault(argument.name, argument)
+    lines = [] if arguments else ["The launch file has no arguments."]
+    for argument in arguments.values():
+        lines += [f"'{readable(argument.name)}'{' (of an included file)' if argument.depth else ''}:"]
+        lines += [f"    {line.strip()}" for line in argument.description.splitlines() if line.strip()]
+        if argument.choices:
+            lines.append(f"    one of: {', '.join(map(readable, argument.choices))}")
+        value = "given" if argument.given else "default"
+        known = f"({value}: {_value(argument.texts)})"
+        lines.append(f"    {'(required)' if argument.required and not argument.given else known}")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def names_of(started: Started) -> frozenset[str]:
+    """Return the names by which ``--node`` selects a node or component: its name, full name, executable and class."""
+    spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
+    full = [f"{space}/{name}" for space in spaces for name in started.name if name]
+    return frozenset([*started.name, *full, *started.target])
 
 
 def _argument(argument: Argument) -> str:
@@ -128,6 +159,7 @@ def _argument(argument: Argument) -> str:
 
 
 def _details(started: Started, expanded: ExpandedFile) -> Iterator[str]:
+    yield from (f"error: {message}" for message in expanded.marks.get(started.span, ()))
     if not started.certain:
         yield " and ".join(_when(started)) or "conditional: the condition is unknown"
     if started.container:
@@ -179,6 +211,9 @@ def json(expanded: ExpandedFile) -> str:
                 **_named([(argument.name, argument.texts)])[0],
                 "given": argument.given,
                 "included": argument.depth > 0,
+                "description": argument.description,
+                "choices": _list(argument.choices),
+                "required": argument.required,
                 **where(argument.span),
             }
             for argument in expansion.arguments
@@ -198,7 +233,7 @@ def _nested(started: Sequence[Started], depth: int, expanded: ExpandedFile) -> l
         end = at + 1
         while end < len(started) and started[end].depth > depth:
             end += 1
-        item = _item(entry)
+        item = _item(entry, expanded.marks)
         if entry.kind == "include":
             item["follows"] = entry.file or None
             if not entry.file:
@@ -209,7 +244,7 @@ def _nested(started: Sequence[Started], depth: int, expanded: ExpandedFile) -> l
     return items
 
 
-def _item(started: Started) -> dict[str, Any]:
+def _item(started: Started, marks: Marks) -> dict[str, Any]:
     return {
         "kind": started.kind,
         "package": _list(started.package),
@@ -226,6 +261,7 @@ def _item(started: Started) -> dict[str, Any]:
         "certain": started.certain,
         "when": _when(started),
         "unknown": list(started.unknown),
+        "problems": list(marks.get(started.span, ())),
         **where(started.span),
     }
 
@@ -253,6 +289,8 @@ def mermaid(expanded: ExpandedFile) -> str:
         conditions = " and ".join(_when(started))
         arrow = "-->" if started.certain else f'-.->|"{label(conditions)}"|' if conditions else "-.->"
         lines.append(f"  {above[started.depth]} {arrow} {name}")
+        if started.span in expanded.marks:
+            lines.append(f"  style {name} stroke:red")
         if started.kind == "include":
             above.append(name)
     return "".join(f"{line}\n" for line in lines)

@@ -1,5 +1,7 @@
 """``ros-lint launch FILE [name:=value ...]``: print what a launch file would start, without starting it.
 
+``ros-lint launch PACKAGE`` lists the launch files that a package installs.
+
 The exit code is:
 
 - 0 if launching would succeed, or if its failure cannot be determined,
@@ -10,12 +12,14 @@ The exit code is:
 from __future__ import annotations
 
 import os
+import re
 import sys
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.cli.commands.launch import formats
 from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
+from ros_lint.cli.commands.launch.marks import Marks, marks_of
 from ros_lint.cli.commands.query import CommandOutput, current_workspace, enclosing_workspace, run_query
 from ros_lint.cli.session import Session, UsageError
 from ros_lint.collectors.launch.expand import Expansion, expand
@@ -24,6 +28,7 @@ from ros_lint.collectors.symbolic_text import readable
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
+    from ros_lint.collectors.launch.expand import Started
     from ros_lint.facts.launch import LaunchFile
     from ros_lint.workspace.model import Workspace
 
@@ -34,8 +39,21 @@ class LaunchRequest(NamedTuple):
     package: str
     """Name of the package that installs the launch file, "" if ``file`` is a path."""
     file: str
-    """File name of a launch file that the package installs, or a path."""
+    """File name of a launch file that the package installs, or a path; "" to list the launch files of the package."""
     arguments: Mapping[str, str]
+
+
+class LaunchOptions(NamedTuple):
+    """The options of the command that decide what is printed."""
+
+    form: str = "tree"
+    """The output format, a key of ``formats.FORMATS``."""
+    show_args: bool = False
+    """True to print the launch arguments only."""
+    depth: int | None = None
+    """Maximum number of includes above a printed action, None for no limit."""
+    node: str = ""
+    """Name, executable or class of the nodes and components to print, "" for all."""
 
 
 def run(options: Mapping[str, Any]) -> int:
@@ -49,7 +67,8 @@ def run(options: Mapping[str, Any]) -> int:
 
     def answer_request(session: Session, workspace: Workspace) -> CommandOutput:
         path = "" if request.package else os.path.relpath(os.path.realpath(request.file), session.base).replace(os.sep, "/")
-        return answer(workspace, LaunchFileLookup(workspace, session.loader.tree), request, path, options["format"])
+        shown = LaunchOptions(options["format"], options.get("show-args", False), options.get("depth"), options.get("node") or "")
+        return answer(workspace, LaunchFileLookup(workspace, session.loader.tree), request, path, shown)
 
     return run_query({**options, "paths": paths}, answer_request)
 
@@ -75,26 +94,57 @@ def parse_launch_request(words: Sequence[str], is_file: Callable[[str], bool]) -
     if len(places) == 2:
         return LaunchRequest(places[0], places[1], arguments)
     if not is_file(places[0]):
+        if _PACKAGE.fullmatch(places[0]):
+            return LaunchRequest(places[0], "", arguments)
         raise UsageError(f"{places[0]}: no such file; for an installed launch file use 'ros-lint launch PACKAGE FILE'")
     return LaunchRequest("", places[0], arguments)
 
 
-def answer(workspace: Workspace, lookup: LaunchFileLookup, request: LaunchRequest, path: str, form: str) -> tuple[str, str, int]:
+_PACKAGE = re.compile(r"[A-Za-z][\w-]*")
+"""Pattern of a package name."""
+
+
+def answer(
+    workspace: Workspace, lookup: LaunchFileLookup, request: LaunchRequest, path: str, options: LaunchOptions
+) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code: 1 if launching would fail, else 0.
 
-    ``path`` is the path of the file relative to the base folder; it is ignored if the request names a package. ``form``
-    is the output format, a key of ``formats.FORMATS``. Raises UsageError.
+    ``path`` is the path of the file relative to the base folder; it is ignored if the request names a package. Raises
+    UsageError.
     """
+    if request.package and not request.file:
+        files = lookup.installed_files(request.package)
+        return "".join(f"{name}  {place}\n" for name, place in files), "", 0
     if request.package:
         file, place = lookup.installed_file(request.package, request.file)
     else:
         file, place = lookup.source_file(path), path
     expansion = expand(file._replace(path=place), request.arguments, lookup.included, workspace.target.distro)
     warnings = list(_argument_warnings(file, lookup, expansion, request.arguments))
-    problems = list(dict.fromkeys(_problems(file, lookup, expansion)))
+    marks = marks_of(workspace, (file, *lookup.followed))
+    problems = list(dict.fromkeys(_problems(file, lookup, expansion, marks)))
     err = "".join(f"ros-lint: {line}\n" for line in (*warnings, *problems))
-    content = formats.ExpandedFile(file, expansion, lookup)
-    return formats.FORMATS[form](content), err, 1 if problems else 0
+    shown = expansion._replace(started=_shown(expansion.started, options))
+    content = formats.ExpandedFile(file, shown, lookup, marks, workspace.target)
+    form = formats.show_args if options.show_args else formats.FORMATS[options.form]
+    return form(content), err, 1 if problems else 0
+
+
+def _shown(started: Sequence[Started], options: LaunchOptions) -> tuple[Started, ...]:
+    """Return the actions to print. The includes above a node that ``options.node`` names are printed, too."""
+    kept = [action for action in started if options.depth is None or action.depth <= options.depth]
+    if not options.node:
+        return tuple(kept)
+    result: list[Started] = []
+    includes: list[Started] = []
+    for action in kept:
+        del includes[action.depth :]
+        if action.kind == "include":
+            includes.append(action)
+        elif action.kind in ("node", "component") and options.node in formats.names_of(action):
+            result += [include for include in includes if include not in result]
+            result.append(action)
+    return tuple(result)
 
 
 def _argument_warnings(
@@ -117,7 +167,7 @@ def _argument_warnings(
         yield f"no launch file that can be read uses the argument '{name}'{hint}"
 
 
-def _problems(file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion) -> Iterator[str]:
+def _problems(file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion, marks: Marks) -> Iterator[str]:
     """Yield a message with a place for each reason why launching would fail."""
     for launch_file in (file, *lookup.followed):
         for problem in launch_file.problems:
@@ -133,6 +183,8 @@ def _problems(file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion) 
     for cycle in expansion.circles:
         yield f"{cycle.span}: this include leads back to {cycle.path}, so launching never ends"
     for started in expansion.started:
+        if started.kind == "node" and started.certain and not started.later:  # a container survives a missing component
+            yield from (f"{started.span}: {message}" for message in marks.get(started.span, ()))
         if started.kind == "include" and started.certain and not started.file and len(started.target) == 1:
             absent = lookup.absent(started.target[0])
             if absent is not None and absent.certain:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.launch.includes import AcceptedArguments, IncludeResolver
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from ros_lint.base.tree import Tree
     from ros_lint.facts.launch import LaunchFile
     from ros_lint.workspace.model import Package, Workspace
+
+
+_LAUNCH_FILE = re.compile(r"[._]launch\.(?:py|xml|ya?ml)\Z")
+"""Pattern of the names of launch files in an underlay: ``robot.launch.py``, ``robot_launch.xml``."""
 
 
 class Absent(NamedTuple):
@@ -99,6 +104,27 @@ class LaunchFileLookup:
         path = f"{share(package)}/{matches[0]}"
         launch_file = self.included(path)
         return self._launchable(launch_file or self._results[path], f"{package}/{matches[0]}"), path
+
+    def installed_files(self, package: str) -> list[tuple[str, str]]:
+        """Return the launch files that a package installs, each with its file name and its place.
+
+        The place is the source file, or for a package of an underlay the path below the share folder. Raises UsageError if
+        there is no such package, or if it installs no launch file.
+        """
+        packages = self._workspace.by_name.get(package, ())
+        installed_package = self._workspace.world.installed(package)
+        if packages:
+            installs = [(owner, provided) for owner in packages for provided in owner.built.products.installs if provided.source]
+            sources = {resolve(owner.path, provided.source): provided.path for owner, provided in installs}
+            files = [(path.rpartition("/")[2], source) for source, path in sources.items() if source in self._sources]
+        elif installed_package is not None:
+            names = installed_package.share_files.names
+            files = [(name.rpartition("/")[2], name) for name in names if _LAUNCH_FILE.search(name)]
+        else:
+            raise UsageError(f"{package}: no such file, and {self._no_package(package)}")
+        if not files:
+            raise UsageError(f"'{package}' installs no launch file")
+        return sorted(files)
 
     def _launchable(self, result: LaunchFile | Absent, path: str) -> LaunchFile:
         if isinstance(result, Absent):

@@ -16,7 +16,7 @@ def _argument(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     entity.need("name")
     default = reader.optional(entity, "default")
-    entity.get("description")
+    description = entity.get("description")
     choices = tuple(_unescaped(choice.need("value")) for choice in entity.entities("choice"))
     return LaunchAction(
         "argument",
@@ -25,6 +25,7 @@ def _argument(reader: Reader, entity: Entity) -> LaunchAction:
         value=default,
         package_span=reader.package_span(entity, "default"),
         choices=choices,
+        description=description if isinstance(description, str) else "",
         conditions=conditions,
     )
 

@@ -120,6 +120,7 @@ def _declare(walker: Walker, launch_object: LaunchObject, conditions: Conditions
     # For a text, launch tests whether the value is a substring of it.
     choices = items(walker.machine, options) if options is not None and not isinstance(plain(options), str) else None
     default = walker.value(launch_object, 1, "default_value")
+    description = plain(launch_object.get(-1, "description"))
     return [
         LaunchAction(
             "argument",
@@ -128,6 +129,7 @@ def _declare(walker: Walker, launch_object: LaunchObject, conditions: Conditions
             value=default,
             package_span=walker.package_span(default),
             choices=tuple(str(text) for choice in choices or () for text in texts(choice)),
+            description=description if isinstance(description, str) else "",
             conditions=conditions,
         )
     ]
