@@ -77,12 +77,12 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
     """Return the effects of a package's CMakeLists.txt, computed without running CMake.
 
     ``distro`` is the ROS distribution of ``$ENV{ROS_DISTRO}``, "" if it is unknown. ``helpers`` are the packages of the
-    workspace whose CMake code runs in the packages that find them (``exports.config_extras`` of their build script). Evaluate
-    the helpers first, each after the helpers that it finds, then the other packages.
+    workspace with CONFIG_EXTRAS: find_package() runs this CMake code (``exports.config_extras`` of the build script). A caller
+    that evaluates several packages must evaluate the helpers first, each after the helpers that it finds itself.
 
     - A condition that cannot be decided: both branches are run. Targets and files of the branches are ``conditional``, and the
       packages in their commands are ``optional``.
-    - An option has its default value. The effects of the other branch are reported as conditional.
+    - An option has its default value. Targets and files of a branch for another value of the option are ``conditional``.
     - Code that cannot be evaluated is recorded in ``opaque``, with the kinds of facts that may be incomplete (``Facet``).
     - Problems have the kinds "cmake-syntax", "missing-file", "missing-folder" (add_subdirectory), "missing-script" (include),
       "no-interfaces", "undefined-target", "file-is-directory" and "directory-is-file".

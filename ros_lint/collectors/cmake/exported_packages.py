@@ -53,8 +53,12 @@ _PLAIN_NAME: Final = re.compile(r"[A-Za-z][\w+.-]*")
 def _exported_files(run: Run) -> list[str]:
     """Return the CMake files of the package that run in the packages that find it.
 
-    These are the files of CONFIG_EXTRAS, templates of CMake config files, and installed files that a file of these kinds
-    includes or registers: ``include("${tools_DIR}/more.cmake")``, ``ament_register_extension(point tools more.cmake)``.
+    These are:
+
+    - the files of CONFIG_EXTRAS,
+    - the templates of CMake config files,
+    - installed files that another result includes, as in ``include("${tools_DIR}/more.cmake")``, or registers, as in
+      ``ament_register_extension(point tools more.cmake)``.
     """
     name = run.results.project.name
     folder = f"share/{name}/cmake/"

@@ -130,7 +130,7 @@ class _Script:
                     self._values[target.id] = statement.value
 
     def arguments(self, call: ast.Call) -> tuple[dict[str, ast.expr], bool]:
-        """Return the keyword arguments of a call, and True if these are all, that is, if each ``**mapping`` could be read."""
+        """Return the known keyword arguments of a call, and False if a ``**mapping`` in the call may have further ones."""
         result: dict[str, ast.expr] = {}
         complete = True
         for keyword in call.keywords:

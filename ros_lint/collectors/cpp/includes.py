@@ -1,8 +1,7 @@
 """The include directives of C and C++, and which of them depend on the build.
 
-Comments, raw strings, line continuations and ``#if 0`` are handled exactly, without lexing every file. One search for
-directives is sufficient if no directive is where a comment or a raw string might be. Otherwise comments and raw strings
-are replaced by blanks, and the search is repeated.
+Directives in comments, in raw strings and under ``#if 0`` do not count. Most files need no lexing: a file is searched for
+directives, and if a directive may be in a comment or a raw string, these are replaced by blanks and the search is repeated.
 """
 
 from __future__ import annotations
@@ -108,7 +107,7 @@ def scan_includes(source: Text) -> IncludeScan:
 
 
 def scan_exactly(source: Text) -> IncludeScan:
-    """Return the includes as :func:`scan_includes` does, by the slower method that is exact for every text."""
+    """Return the includes of a C or C++ source like :func:`scan_includes`, but by a slower method that suits every text."""
     text = blank_comments(source.text)
     directives = [match for match in _DIRECTIVE.finditer(text) if not _before(text, match.start()).strip()]
     guarded = _is_guarded(text, directives)
@@ -318,7 +317,10 @@ class _Conditional:
         self.complete = value is True  # whether a branch is always taken
 
     def branch(self, value: bool | None) -> None:
-        """Begin the next branch at ``#elif`` or ``#else``. ``value`` is that of its condition, None if the build decides."""
+        """Begin the next branch at ``#elif`` or ``#else``.
+
+        ``value`` is the value of the branch's condition, None if the condition depends on the build.
+        """
         self._close()
         self.live = value is not False and not self.complete
         self.complete |= value is True

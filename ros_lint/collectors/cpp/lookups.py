@@ -128,7 +128,7 @@ def _statement_start(text: str, at: int) -> int:
 
 
 def _uses(text: str, name: str) -> Iterator[int]:
-    """Yield the offset after each use of the variable ``name``, and after a closing bracket that follows it."""
+    """Yield the offset after each use of the variable ``name``. If ``)`` follows the use, the offset is after this bracket."""
     start = text.find(name)
     while start >= 0:
         end = start + len(name)

@@ -20,7 +20,7 @@ class DefaultConfigurations(NamedTuple):
     A caller of the file can only change which of the possible values applies, for example with an argument in a condition."""
 
     def is_own(self, text: str) -> bool:
-        """Return whether all launch configurations in a text are in ``own``, so that no caller adds further values."""
+        """Return whether no caller can add a value to the launch configurations in a text: all of them are in ``own``."""
         return _depends_only_on(text, self.own)
 
 

@@ -303,9 +303,10 @@ class _Run:
             scope.values[name] = tuple(dict.fromkeys((*present, *texts)))
 
     def _reset(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        """Clear all launch configurations, set those in the arguments of the action, and return the scope after the action.
+        """Apply an action such as ResetLaunchConfigurations, and return the scope (the settings in effect) after the action.
 
-        Namespaces, parameters and remappings are cleared as well, because launch_ros stores them in launch configurations.
+        All launch configurations are cleared, then those in the action's arguments are set. Namespaces, parameters and
+        remappings are cleared as well, because launch_ros stores them in launch configurations.
         """
         configurations = {name: self._texts(value, scope) for name, value in action.arguments}
         if scope.certain:

@@ -21,9 +21,9 @@ def group(
     scoped: bool,
     forwarding: bool,
 ) -> LaunchAction:
-    """Return a group of actions, in which launch configurations have the values ``configurations``.
+    """Return a group of launch actions that sets the launch configurations ``configurations`` at its start.
 
-    A scoped group without ``forwarding`` starts with only these configurations. Any other group also starts with the
+    ``scoped`` and ``forwarding`` are options of GroupAction. A scoped group without ``forwarding`` starts without the launch
     configurations of the surrounding actions.
     """
     if scoped and not forwarding:

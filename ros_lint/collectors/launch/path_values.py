@@ -25,8 +25,8 @@ def _display_file(text: str) -> str:
 def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | None]]:
     """Return the values of an action that can contain a path, except the target of the action.
 
-    Each value comes with a function that returns the path of the file to read in a text of the value. The function is None if
-    the started program reads no file in the value.
+    Each value is paired with a function that extracts a file path from a text of the value: ``-d a.rviz`` -> ``a.rviz``. It is
+    the path of a file that the started program reads. The function is None if the program reads no file in the value.
     """
     values: list[tuple[LaunchValue, FilePart | None]] = []
     if action.value is not None:
@@ -44,9 +44,10 @@ def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | No
 
 
 def _rviz_arguments(arguments: Iterable[tuple[str, LaunchValue]]) -> Iterator[tuple[LaunchValue, FilePart | None]]:
-    """Yield the arguments of rviz2, each with the function that returns the display file in its text.
+    """Yield the arguments of rviz2, each with a function that extracts the display file: ``-d a.rviz`` -> ``a.rviz``.
 
-    The option and the file may be one argument, ``-d a.rviz``, or two.
+    If the option ``-d`` is an argument of its own, the file is the next argument. The function is None for values that are
+    not arguments of the command line.
     """
     is_display_next = False
     for name, value in arguments:

@@ -202,7 +202,7 @@ class References:
     ) -> None:
         """Add references to the installed files and packages whose paths a value contains.
 
-        ``reads`` returns the part of a text that is a file to read.
+        ``reads`` extracts the path of a file that the started program reads from a text: ``-d a.rviz`` -> ``a.rviz``.
         """
         texts, default = self._filled(value)
         # A literal path in a command does not depend on defaults in other words of the command.
@@ -279,7 +279,7 @@ class References:
         self._add("command", command, command, place, place, conditional, by_default=False)
 
     def _filled(self, value: LaunchValue) -> tuple[tuple[str, ...], bool]:
-        """Return the possible texts of a value if launch arguments have their defaults, and whether a caller can change it."""
+        """Return the possible texts of a value with the defaults of launch arguments, and whether a caller can change these."""
         if all(is_settled(text) for text in value.texts):
             return value.texts, False
         by_default = not all(map(self._defaults.is_own, value.texts))
@@ -421,7 +421,7 @@ class References:
         return tuple(sorted(references, key=attrgetter("span")))
 
     def hide(self, reason: str, span: Span) -> None:
-        """Record a place that cannot be evaluated, so that it is not known which packages the launch file uses there."""
+        """Record a place that cannot be evaluated: it is unknown which packages the launch file uses there."""
         self.opaque[Opaque(Facet.USES, reason, span)] = None
 
 

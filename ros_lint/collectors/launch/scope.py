@@ -117,7 +117,10 @@ class Filling:
             yield "it is computed in a way that ros-lint cannot follow"
 
     def may_hold(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> bool:
-        """Return whether no condition is false in a scope. Reasons for unknown conditions are not recorded in ``unknown``."""
+        """Return whether all conditions may hold in a scope: none of them is false.
+
+        In contrast to :meth:`truth`, it is not recorded in ``unknown`` why a condition is unknown.
+        """
         reasons = dict(self.unknown)
         truth, _ = self.truth(conditions, scope)
         self.unknown = reasons

@@ -30,7 +30,7 @@ SCHEMA_ORDER: Final = ("name", "version", "description", "maintainer", "license"
 
 
 def schema_rank(tag: str) -> int:
-    """Return the position of a tag in :data:`SCHEMA_ORDER`: that of the entry "" for dependency tags and unknown tags."""
+    """Return the position of a tag in :data:`SCHEMA_ORDER`. Dependency tags and unknown tags have the position of ""."""
     return SCHEMA_ORDER.index(tag) if tag in SCHEMA_ORDER else SCHEMA_ORDER.index("")
 
 
@@ -113,7 +113,7 @@ def change_kind(manifest: Manifest, depend: Depend, tag: str, alike: Collection[
     ``tag`` must differ from the present tag. ``alike`` are all dependencies that one fix changes to ``tag``. If the file groups
     dependencies by tag, the dependency is moved to the group of its new tag. It stays in place
     - if its whole group changes to a tag that the file does not have yet, or
-    - if it is not alone on its line, has a comment or cannot be written again from the manifest.
+    - if it is not alone on its line, has a comment, or has source text that ros-lint would write differently.
     """
     depends = manifest.depends
     runs = [list(run) for _, run in groupby(depends, key=lambda sibling: sibling.tag)]
@@ -179,7 +179,7 @@ def sort(manifest: Manifest) -> tuple[Edit, ...]:
 
     - is on a line with another element,
     - has a comment, or
-    - cannot be written again from the manifest, such as ``<description>``.
+    - has source text that ros-lint would write differently, such as the markup in ``<description>``.
     """
     children: list[Element | Depend] = sorted((*manifest.elements, *manifest.depends), key=lambda child: child.span)
     ranks = [schema_rank(child.tag) for child in children]

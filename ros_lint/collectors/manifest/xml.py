@@ -37,7 +37,8 @@ _ENTITIES = {"lt": "<", "gt": ">", "amp": "&", "apos": "'", "quot": '"'}
 class Fault(NamedTuple):
     """An error in a manifest. ``start`` and ``end`` are the offsets of its position.
 
-    ``subject`` is what the error is about, such as the format that has an unknown tag, see :class:`Problem`. "" if not needed.
+    ``subject`` is "" except for a tag or attribute that the declared format of package.xml lacks: then ``subject`` is a newer
+    format that has the tag or attribute, such as "3".
     """
 
     kind: str
@@ -233,7 +234,10 @@ def children(document: Document) -> list[XmlNode]:
 
 
 def child(document: Document, at: int) -> tuple[XmlNode, int]:
-    """Return the element that begins at the index ``at`` of the events, and the index of the event after its end."""
+    """Return the element whose start tag is ``document.events[at]``, and the index of the event after the element's end.
+
+    The events are the start tags and the ends of elements.
+    """
     text, events, last = document.text, document.events, len(document.events)
     open_elements: list[tuple[Start, list[XmlNode]]] = []
     while at < last:
@@ -252,7 +256,10 @@ def child(document: Document, at: int) -> tuple[XmlNode, int]:
 
 
 def _events(text: str, data: bytes) -> tuple[list[Event], Fault | None, int]:
-    """Return the tags with byte offsets, the error that stopped expat (or None), and the offset where expat stopped."""
+    """Return the tags of an XML text, the error that stopped the parser expat (or None), and the offset where expat stopped.
+
+    The offsets of the tags are in bytes, the offset of the stop is in characters.
+    """
     # Namespaces as in xml.dom.minidom, which catkin_pkg uses.
     parser = expat.ParserCreate("utf-8", " ")
     parser.namespace_prefixes = True
@@ -352,7 +359,10 @@ def _qualified(name: str) -> str:
 
 
 def _conflicts(text: str, fault: int) -> tuple[Fault, ...]:
-    """Return a fault for each unresolved merge conflict, () if all conflicts come after the offset ``fault`` of an error."""
+    """Return a fault for each unresolved merge conflict in a text, () if all conflicts are after the offset ``fault``.
+
+    ``fault`` is the offset of the error that expat reports.
+    """
     starts = [marker for marker in _CONFLICT.finditer(text) if marker[0].startswith("<")]
     if not starts or starts[0].start() > fault:
         return ()

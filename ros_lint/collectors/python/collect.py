@@ -137,7 +137,7 @@ def _is_added(item: Import, folders: Sequence[tuple[int, frozenset[str]]]) -> bo
 
 
 def _remark(item: Import, added: bool) -> str:
-    """Return the remark that a message adds after the name of an imported module: ", with the error caught"; else ""."""
+    """Return the remark about an import for messages: ", with the error caught", ", from a folder added to sys.path" or ""."""
     return ", with the error caught" if item.caught else ", from a folder added to sys.path" if added else ""
 
 

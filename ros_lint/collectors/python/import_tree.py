@@ -106,7 +106,7 @@ def _calls(source: Text, tree: ast.Module) -> Iterator[Import]:
 
 
 def _after_skips(imports: Iterable[Import]) -> list[Import]:
-    """Return the imports, and make those optional whose module, or a parent of it, an earlier ``importorskip()`` call names."""
+    """Return the imports after a change: ``import a.b`` becomes optional after ``pytest.importorskip("a")``."""
     results: list[Import] = []
     skips: tuple[str, ...] = ()
     for item in imports:
@@ -206,11 +206,11 @@ def _tells_ros_2(test: ast.expr, words: Iterable[str]) -> bool | None:
 
 
 def _alternatives(branches: list[list[_Found]], kind: int) -> Iterator[_Found]:
-    """Yield the imports of alternative branches, each with a number: 0 if the import is required, else ``kind``.
+    """Yield the imports of alternative branches, each with a number: 0 for a required import, else how optional it is.
 
     An import is required if every branch imports from the same top-level package. A relative import is also required if
-    another branch has imports, because the other branch may replace only this one module. Imports that are optional within
-    their branch keep their number.
+    another branch has imports, because the other branch may replace only this one module. Any other import gets the number
+    ``kind``. An import that is already optional within its branch keeps its number.
     """
     needed = [{root for statement, optional in branch if not optional for root in _roots(statement)} for branch in branches]
     always = set.intersection(*needed)

@@ -98,7 +98,7 @@ def _glob(run: Run, args: list[str], recurse: bool) -> None:
 
 
 def _matches(run: Run, pattern: str, recurse: bool, folders: bool) -> list[str]:
-    """Return the absolute paths of the files that a pattern of file(GLOB) matches; ``[HOLE]`` if they are unknown.
+    """Return the absolute paths of the files that a pattern of file(GLOB) matches; ``[HOLE]``, an unknown text, if unknown.
 
     ``recurse`` is True for file(GLOB_RECURSE). With ``folders``, matching folders are included.
     """

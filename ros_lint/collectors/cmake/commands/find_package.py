@@ -125,9 +125,9 @@ def mark_found(run: Run, name: str, *, required: bool) -> None:
 
 
 def _find_all(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_find(build|test)`` of ros_macros.cmake.
+    """Find the dependencies that package.xml declares for the build, or those for tests, as find_package() would.
 
-    It runs find_package() for each dependency that package.xml declares for the build, or for tests.
+    This is the command ``ros_lint_find(build|test)`` in ros_macros.cmake, which has ros-lint's models of ROS macros.
     """
     names = run.paths.sources.test_depends
     if args[:1] == ["build"]:
@@ -148,10 +148,10 @@ _PURPOSES: Final[Mapping[str, Purpose]] = {"-": "", "export": "export", "interfa
 
 
 def _packages_used(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_uses(purpose command names...)`` of ros_macros.cmake: record that the package uses other packages.
+    """Record that the evaluated package uses the packages ``names``, given the arguments ``purpose command names...``.
 
     The purpose is "export", "interfaces", "plugins", or "-" for none of these. The command is a text for messages, see
-    :func:`_quotation`.
+    :func:`_quotation`. The arguments are those of ``ros_lint_uses()`` in ros_macros.cmake, ros-lint's models of ROS macros.
     """
     purpose = _PURPOSES[args[0]]
     certainly: dict[str, Span] = {}
@@ -211,9 +211,10 @@ def _add_error(run: Run, command: str, detail: str, span: Span, name: str) -> No
 
 
 def _target_uses(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_target_uses(how target names...)`` of ros_macros.cmake: record that a target uses packages.
+    """Record that a target uses the packages ``names``, given the arguments ``how target names...``.
 
-    ``how`` is the start of the command for messages, such as ``"ament_target_dependencies ..."``.
+    ``how`` is the text of the command for messages, such as ``"ament_target_dependencies ..."``. The arguments are those of
+    ``ros_lint_target_uses()`` in ros_macros.cmake, ros-lint's models of ROS macros.
     """
     _note_modified_target(run, args[0].partition(" ")[0], args[1:2])
     names = [name for name in args[2:] if name not in _NO_PACKAGES]
@@ -296,9 +297,10 @@ def _link_all(run: Run, args: list[str]) -> None:
 
 
 def _is_target_of(run: Run, space: str, target_name: str) -> bool:
-    """Return whether ``space::target_name`` is a target of a bundled project, or of a found package named ``target_name``.
+    """Return whether the target ``space::target_name`` has a known origin, so that it does not imply a package ``space``.
 
-    A bundled project is built together with the package.
+    The origin is the project ``space``, if the build of the package also builds this project (for example with FetchContent),
+    or the package ``target_name``, if find_package() found this package but no package ``space``.
     """
     return run.is_bundled(space) or (space not in run.packages.prefixes and target_name in run.packages.prefixes)
 
@@ -320,9 +322,10 @@ def _link_libraries(run: Run, args: list[str]) -> None:
 
 
 def _hide(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_hide(facets reason)`` of ros_macros.cmake: record which facts about the package are incomplete.
+    """Record which facts about the package are incomplete, and why, given the arguments ``facets reason``.
 
-    ``facets`` has the names of kinds of facts (``Facet``), such as EXECUTABLES; ANYTHING means all.
+    ``facets`` has the names of kinds of facts (``Facet``), such as EXECUTABLES; ANYTHING means all. The arguments are those of
+    ``ros_lint_hide()`` in ros_macros.cmake, ros-lint's models of ROS macros.
     """
     facet = Facet(0)
     for name in split(args[0]):

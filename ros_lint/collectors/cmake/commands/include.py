@@ -104,7 +104,7 @@ def _include_installed(run: Run, name: str) -> int | None:
 def _skip(run: Run, file: str) -> int:
     """Skip an include() of a file of another package: record that the file may use packages and define commands.
 
-    The file probably installs nothing itself, like a module of CMake.
+    The skipped file is assumed to install nothing, as most CMake modules do.
     """
     run.open_world = run.skipped_include = True
     run.hide(Facet.USES | Facet.EXPORTS, f"include() of {file} cannot be evaluated")
@@ -208,10 +208,10 @@ EXPORTS are complete because ament_package() ignores ament_export_...() calls in
 
 
 def _built_in(run: Run, path: str, args: list[str]) -> str:
-    """Return the build folder of a subdirectory, HOLE if it is unknown.
+    """Return the build folder of a subdirectory; HOLE, which means an unknown text, if the build folder is unknown.
 
-    It is the second argument of add_subdirectory(), by default the path of the subdirectory. A relative path is relative to
-    the build folder of the current directory.
+    The build folder is the second argument of add_subdirectory(), by default the path of the subdirectory. A relative path
+    is relative to the build folder of the current directory.
     """
     argument = next((arg for arg in args if arg not in ("EXCLUDE_FROM_ALL", "SYSTEM")), "")
     below = argument or relative(run.paths.tree_path(run.paths.directory), run.paths.tree_path(path))

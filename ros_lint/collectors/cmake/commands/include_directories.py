@@ -107,7 +107,7 @@ def _headers_of(run: Run, args: list[str]) -> None:
 
 
 def _compiler_options(run: Run, args: list[str]) -> None:
-    """Record include directories in compiler options (-I, -isystem)."""
+    """Record unknown include directories for all targets if an argument is a compiler option such as -I or -isystem."""
     if any(_FOLDER_OPTION.search(arg) for arg in args):
         record_header_sources(run, ALL_TARGETS, [f"/{ATOM}"])
 
@@ -123,7 +123,7 @@ _PROPERTIES: Final = frozenset(
 
 
 def are_in_flags(run: Run) -> bool:
-    """Return whether the compiler flags for all targets have include directories (-I, -isystem)."""
+    """Return whether a variable such as CMAKE_CXX_FLAGS adds include directories (-I, -isystem) to all targets."""
     return any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS)
 
 
@@ -134,7 +134,7 @@ _MOST_LINKED: Final = 1_000
 def visible_headers(run: Run, name: str, targets: Mapping[str, Properties]) -> tuple[str, ...] | None:
     """Return the names of the packages (and libraries) whose headers the target ``name`` may include, sorted.
 
-    The result is None if the target may include headers of any package, or if it links too many targets to follow all.
+    The result is None if the target may include headers of any package, or if more than ``_MOST_LINKED`` targets are linked.
     """
     packages: dict[str, None] = {}
     pending = [name, ALL_TARGETS]
@@ -165,9 +165,9 @@ def visible_headers(run: Run, name: str, targets: Mapping[str, Properties]) -> t
 
 
 def _owners(run: Run, name: str) -> tuple[str, ...]:
-    """Return the possible packages of a target or library of another package; () if it may be any package.
+    """Return the packages to which an imported target or a library may belong; () if it may belong to any package.
 
-    For example, ``BT::behaviortree_cpp`` is a target of behaviortree_cpp.
+    For example, ``BT::behaviortree_cpp`` may belong to behaviortree_cpp.
     """
     space, sign, target_name = name.partition("::")
     if not sign or not target_name:

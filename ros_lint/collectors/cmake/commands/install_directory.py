@@ -112,7 +112,7 @@ def _install_directory(run: Run, value: str, source: str, target: str, rule: _Ru
 
 
 def _generated_below(run: Run, folder: str) -> tuple[list[str], bool]:
-    """Return the files below a folder that the build generates, sorted, and whether the build generates unknown files, too."""
+    """Return the generated files below ``folder``, sorted, and whether the build also generates unknown files below it."""
     below = f"{folder}/" if folder else ""
     generated = sorted(path for path in run.paths.generated if path.startswith(below) and path not in run.paths.files)
     folders = [path[:-1] for path in generated if path[-1] == "/"]

@@ -99,7 +99,7 @@ def ascii_lower(text: str) -> str:
 
 
 def _known(function: Callable[..., str]) -> Callable[..., str]:
-    """Return a version of ``function`` that accepts unknown arguments: the result is HOLE if an argument is not fully known."""
+    """Return a version of ``function`` that accepts arguments with unknown parts, and then returns HOLE (an unknown text)."""
 
     def guarded(*args: str) -> str:
         return function(*args) if all(map(is_known, args)) else HOLE

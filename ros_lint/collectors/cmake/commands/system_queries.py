@@ -49,7 +49,7 @@ def _host(run: Run, args: list[str]) -> None:
 
 
 def _path(run: Run, args: list[str]) -> None:
-    """Run ``cmake_path()``: set the variable that the mode changes, the input or an output, to an unknown value."""
+    """Run ``cmake_path()``: set the variable to which the mode writes its result to an unknown value."""
     if len(args) < 2:
         return
     if "OUTPUT_VARIABLE" in args[:-1]:

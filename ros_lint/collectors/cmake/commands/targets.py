@@ -61,9 +61,10 @@ def _add(run: Run, args: list[str], kind: str, keywords: tuple[str, ...]) -> Non
 
 
 def _build(run: Run, name: str, target: Properties, args: list[str], keywords: tuple[str, ...]) -> None:
-    """Record that a target is built from the sources in the arguments: all except the first argument and ``keywords``.
+    """Record that the build makes a target, given the arguments of a command such as add_executable().
 
-    ``name`` is the known part of the target's name.
+    The first argument is the name of the target. All others, except ``keywords``, are sources. ``name`` is the known part of
+    the target's name.
     """
     target["SOURCES"] = ""
     if run.conditional:
@@ -173,7 +174,10 @@ def _property(run: Run, name: str, property_name: str, default: str) -> str:
 
 
 def _custom_command(run: Run, args: list[str], *, optional: bool = False) -> None:
-    """Run ``add_custom_command()``: record its outputs as generated files, and the programs that it starts."""
+    """Run ``add_custom_command()``: record its outputs as generated files, and the programs that it starts.
+
+    ``optional`` is True for the command of a custom target that is not built by default.
+    """
     note_started_programs(run, args, optional=optional)
     outputs = False
     for arg in args:
@@ -237,7 +241,10 @@ _KINDS: Final[dict[str, Literal["executable", "interface"]]] = {"executable": "e
 
 
 def _links(run: Run, name: str) -> tuple[tuple[str, Span], ...]:
-    """Return the targets of the package to which a target is linked, each with the place. An alias is replaced by its target."""
+    """Return the targets of the package to which the target ``name`` is linked, each with the place of the link command.
+
+    An alias is replaced by its target.
+    """
     links: dict[str, Span] = {}
     for library, span in run.results.links[name].items():
         target = real_target(run, library)

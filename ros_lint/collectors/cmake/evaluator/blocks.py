@@ -9,7 +9,7 @@ from ros_lint.collectors.cmake.syntax import Argument, Command
 
 
 class If(NamedTuple):
-    """An ``if()`` with its branches. Each branch is its condition, None for ``else()``, and its commands."""
+    """An ``if()`` with its branches. Each branch is a pair: its condition (None for ``else()``) and its commands."""
 
     command: Command
     branches: tuple[tuple[Command | None, Body], ...]
@@ -96,7 +96,7 @@ class _Open:
 
 
 def blocks(commands: Sequence[Command]) -> Body:
-    """Return the commands of a file as a tree of blocks. Raises UnbalancedError if a block is not closed or not open."""
+    """Return the commands of a file as a tree of blocks. Raises UnbalancedError for an unclosed block or a stray end command."""
     nodes: list[Node] = []
     stack: list[_Open] = []
     outer_nodes: list[list[Node]] = []

@@ -154,7 +154,10 @@ def _same(first: str, second: str) -> int:
 
 
 def _root(path: str) -> str:
-    """Return the placeholder (an ATOM) of the root folder with which a path starts, "" if it starts with no placeholder."""
+    """Return the first component of an absolute path if this is a placeholder for an unknown folder, else "".
+
+    A placeholder, such as that of the workspace folder, begins with the control character ATOM.
+    """
     return path.split("/")[1] if path.startswith("/\1") else ""
 
 

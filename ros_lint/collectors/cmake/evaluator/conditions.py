@@ -223,7 +223,7 @@ def _is_test_option(name: str) -> bool:
 
 
 def _build_testing(run: Run) -> Truth:
-    """Return the truth value of BUILD_TESTING: LIKELY, or UNLIKELY if the script itself sets it to false.
+    """Return the truth value of BUILD_TESTING: LIKELY (true by default), or UNLIKELY if the script itself sets it to false.
 
     An option(BUILD_TESTING) after set(BUILD_TESTING OFF) keeps the value false.
     """
@@ -232,7 +232,10 @@ def _build_testing(run: Run) -> Truth:
 
 
 def _tests_enabled(run: Run, name: str) -> Truth:
-    """Return the truth value of a variable that enables tests, such as BUILD_TESTS: LIKELY or UNLIKELY by its default value."""
+    """Return the truth value of a variable that enables tests, such as BUILD_TESTS.
+
+    The result is LIKELY (true by default) or UNLIKELY (false by default), because the user can change the variable.
+    """
     value = run.get(name)
     if value is None or not is_fixed(value):
         return Truth(UNLIKELY, test_if_true=True)

@@ -35,7 +35,7 @@ templates: Final[dict[str, Compiled]] = {}
 
 
 def template(text: str) -> Compiled:
-    """Return the parts of an argument, or the variable's name if it is just ``${name}``.
+    """Return the parts of an argument, which are texts and variable references; for an argument ``${name}`` just "name".
 
     Raises ExpansionError if CMake rejects the argument.
     """

@@ -70,7 +70,7 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
 
 
 def run_conditionally(run: Run, piece: Callable[[], Exit], exits: Exit = NEXT) -> tuple[Exit, Changes]:
-    """Run ``piece``, code that may not run, and undo its changes. Return how it may end (Exit), and its changes.
+    """Evaluate ``piece``, code under an undecided condition, and undo its changes. Return its possible Exit and its changes.
 
     ``exits`` describes the condition of the code: BY_DEFAULT if it runs with default options, IF_TESTING if it runs only if
     tests are enabled.
@@ -192,7 +192,7 @@ def _call_values(procedure: Procedure, args: list[str], first_uncertain: int, po
 
 
 def _possibly_empty(run: Run, command: Command) -> set[str]:
-    """Return the values of the quoted arguments of a command that may be empty because all their elements may be missing."""
+    """Return the values of those quoted arguments of a command that may be empty, because each list element may be missing."""
     values = {run.evaluate(text) for text, kind, _, _ in command.args if kind == QUOTED}
     return {value for value in values if MAYBE in value and not certainly_set(value)}
 

@@ -101,7 +101,10 @@ def _elements(run: Run, name: str) -> list[str]:
 
 
 def _unknown_whole(items: list[str]) -> list[str]:
-    """Return list elements in which HOLE replaces each element with an unknown piece, because it may be several elements."""
+    """Return list elements in which HOLE (an unknown text) replaces each element that has an unknown part.
+
+    The whole element becomes unknown, because its unknown part may contain semicolons.
+    """
     return [UNPAIRED_HOLE if UNPAIRED_HOLE in item else HOLE if HOLE in item else item for item in items]
 
 

@@ -55,21 +55,21 @@ class Paths:
         return join_path(self.sources.path, path) if path else self.sources.path
 
     def relative(self, value: str) -> str | None:
-        """Return the path of a path argument relative to the package, e.g. ``../other/a.txt`` if it is outside of the package.
+        """Return the path argument ``value`` as a path relative to the package, such as ``src/a.cpp`` or ``../other/a.txt``.
 
         The result is None if the path is outside of the workspace or unknown.
         """
         return _relative_to(self.sources.path, self.directories[-1][0], value) if len(value) <= LONGEST else None
 
     def source(self, value: str) -> str | None:
-        """Return the path of a path argument relative to the package; None if it is outside of the package or unknown."""
+        """Return the path argument ``value`` as a path relative to the package; None for a path outside, or an unknown path."""
         path = self.relative(value)
         return None if path is None or is_outside(path) else path
 
     def outside(self, value: str) -> str | None:
-        """Return the path of a path argument if it is an existing file or folder outside of the package, else None.
+        """Return the path argument ``value`` as a path relative to the package if it exists outside of the package, else None.
 
-        The path is relative to the package. Files outside of the workspace count as missing.
+        Files outside of the workspace count as missing.
         """
         path = self.relative(value)
         return path if path is not None and is_outside(path) and self.sources.outside.kind(self.tree_path(path)) else None
@@ -102,7 +102,7 @@ class Paths:
         return _destination(value) if len(value) <= LONGEST else None
 
     def build_path(self, value: str) -> str | None:
-        """Return the path of a path argument relative to the build folder of the package.
+        """Return the path argument ``value`` as a path relative to the build folder of the package.
 
         The result is None if the path is outside of the build folder or unknown.
         """
@@ -148,7 +148,7 @@ class Paths:
         return files[start : bisect_left(files, f"{path}0", start)]  # "0" is the character after "/"
 
     def enter_directory(self, path: str, build: str) -> None:
-        """Make a folder the current directory, given its path relative to the package and its build folder."""
+        """Make a folder the current directory. ``path`` is relative to the package, ``build`` is the build folder of ``path``."""
         self.directories.append((path, build))
         self._place_directory()
 
@@ -164,7 +164,7 @@ class Paths:
 
 @lru_cache(maxsize=4096)
 def _relative_to(package: str, directory: str, value: str) -> str | None:
-    """Return the path of the path argument ``value``, relative to ``package``.
+    """Return the path argument ``value`` of a command as a path relative to ``package``.
 
     ``directory`` is the folder of the script with the argument, relative to the package. The result is None if the path is
     outside of the workspace or unknown.

@@ -193,9 +193,9 @@ class Run(State):
             )
 
     def _place_of(self, reference: str) -> Span:
-        """Return the place of a variable reference in the current command.
+        """Return the place of a variable reference, such as ``${name}``, in the current command.
 
-        If no argument has the reference, it is the place of the command.
+        If no argument has the reference, the result is the place of the command.
         """
         frame = self.frames[-1]
         command = frame.command
@@ -392,7 +392,10 @@ class Run(State):
             self.test_elements[name] = self.test_elements.get(name, frozenset()).union(set(elements).difference(split(value)))
 
     def _is_test_element(self, name: str) -> bool:
-        """Return whether ``name`` is an argument of the current command only because the branch for tests extended a list."""
+        """Return whether ``name`` is an argument of the current command only in builds with tests.
+
+        That is the case if it is an element that a branch for tests, such as ``if(BUILD_TESTING)``, added to a list.
+        """
         command = self.frames[-1].command
         lists = [variable for variable, elements in self.test_elements.items() if name in elements]
         return command is not None and any(f"${{{variable}}}" in text for variable in lists for text, *_ in command.args)

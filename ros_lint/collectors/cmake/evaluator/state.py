@@ -252,7 +252,7 @@ class State:
         return exits, changes
 
     def join(self, alternatives: Sequence[Changes], default: int | None = None) -> None:
-        """Write the merged state after one of several branches ran, given the changes of each branch.
+        """Change this state to the merged state after several branches, of which one runs, given the changes of each branch.
 
         ``default`` is the index of the branch that runs with default options, None if there is no such branch.
         """

@@ -82,7 +82,10 @@ def reversible(value: int) -> int:
 
 
 def reversible_if_configurable(value: int, run: Run, *tokens: ConditionToken) -> Truth:
-    """Return ``value`` as a Truth. TRUE becomes LIKELY, and FALSE UNLIKELY, if the user can change the value of a token."""
+    """Return the truth value of a condition, given ``value``, its value with default options.
+
+    If the user can change the value of a word of the condition (``tokens``), TRUE becomes LIKELY and FALSE becomes UNLIKELY.
+    """
     configurable = any(token.configurable or (not token.quoted and run.is_configurable(token.text)) for token in tokens)
     return Truth(reversible(value) if configurable else value)
 

@@ -46,12 +46,15 @@ SLOW: Final = 16
 
 
 def is_known(value: str) -> bool:
-    """Return whether every character of a value is known: the value has no HOLE, ATOM or MAYBE."""
+    """Return whether every character of a value is known: the value has none of the markers of unknown parts."""
     return HOLE not in value and ATOM not in value and MAYBE not in value
 
 
 def is_fixed(value: str) -> bool:
-    """Return whether a value is one fixed text: it has no HOLE and no MAYBE. An ATOM, an unknown text, is fixed as well."""
+    """Return whether a value is one fixed text, even if a part is not known here, such as the folder of the workspace.
+
+    A value with a marker for any text (HOLE) or for elements that may be missing (MAYBE) is not fixed.
+    """
     return HOLE not in value and MAYBE not in value
 
 
@@ -80,7 +83,10 @@ _LONGEST_KEPT: Final = 1024
 
 
 def embeddable(value: str) -> str:
-    """Return the text that a value contributes to a longer text: the value, HOLE if it has list elements that may be missing."""
+    """Return the text that a value contributes to a longer text: the value itself if no list element may be missing.
+
+    For any other value, the result is HOLE, which means an unknown text.
+    """
     return HOLE if MAYBE in value else value
 
 
@@ -153,7 +159,7 @@ def is_unpaired(value: str) -> bool:
 
 
 def with_unpaired_holes(value: str | None) -> str | None:
-    """Return a value in which UNPAIRED_HOLE replaces HOLE: unknown pieces of the value may have unpaired square brackets.
+    """Return a value after a change of its unknown parts: they may have unpaired square brackets (UNPAIRED_HOLE for HOLE).
 
     The result for None is None.
     """
@@ -165,7 +171,7 @@ def with_unpaired_holes(value: str | None) -> str | None:
 
 
 def join(values: Iterable[str]) -> str:
-    """Return list elements joined by semicolons, as CMake stores a list; HOLE if the text would be too long."""
+    """Return list elements joined by semicolons, as CMake stores a list; HOLE (an unknown text) if it would be too long."""
     if isinstance(values, (list, tuple)):
         return ";".join(values) if sum(map(len, values)) <= LONGEST else HOLE
     texts = []
@@ -189,12 +195,18 @@ def join_with(glue: str, texts: Sequence[str]) -> str:
 
 
 def strip_mark(element: str) -> tuple[str, bool]:
-    """Return a list element without its MAYBE marker (the element may be missing), and whether it had no such marker."""
+    """Return a list element without its marker, and whether it certainly exists.
+
+    The marker (MAYBE) means that the element may be missing.
+    """
     return (element[1:], False) if element[:1] == MAYBE else (element, True)
 
 
 def mark_maybe(element: str) -> str:
-    """Return a list element with MAYBE, the marker of elements that may be missing, before it. HOLE is returned unchanged."""
+    """Return a list element with the marker (MAYBE) that the element may be missing.
+
+    An element that is entirely unknown is returned unchanged, because it may be empty anyway.
+    """
     return element if element.startswith(MAYBE) or element in (HOLE, UNPAIRED_HOLE) else MAYBE + element
 
 
@@ -211,8 +223,8 @@ def merge(values: Sequence[str | None], default: int | None = None) -> str | Non
     """Return the value of a variable after one of several branches of an if() ran, given its value after each branch.
 
     A value of None is an unset variable. ``default`` is the index of the branch that runs with default options, None if there
-    is no such branch. If ``default`` is given, the result has every element of the value of the default branch; elements that
-    only other branches have get the MAYBE marker, because they may be missing.
+    is no such branch. If ``default`` is given, the result has every element of the value of the default branch. Elements of
+    the other values get a marker (MAYBE), because they may be missing.
     """
     first = values[0]
     if all(value == first for value in values):

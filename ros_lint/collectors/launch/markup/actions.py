@@ -127,7 +127,7 @@ def _timer(reader: Reader, entity: Entity) -> LaunchAction:
 
 
 def _loop(reader: Reader, entity: Entity) -> LaunchAction:
-    """Return the actions in a loop as a group under an unknown condition, because the loop may run 0 times."""
+    """Return the actions in a loop such as ``<for_each>`` as a group with an unknown condition: the loop may run 0 times."""
     conditions = reader.conditions(entity)
     for attribute in ("values",) if entity.tag == "for_each" else ("len", "name"):
         reader.text(entity, attribute)

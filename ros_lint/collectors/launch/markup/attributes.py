@@ -202,7 +202,7 @@ class Reader:
             raise Rejected("wrong-type", f"'{name}' of <{entity.tag}> is neither true nor false", entity.place(name))
 
     def named(self, entity: Entity, tag: str) -> tuple[tuple[str, LaunchValue], ...]:
-        """Return the attributes ``name`` and ``value`` of each child with a tag, such as ``<arg name="a" value="b"/>``."""
+        """Return the attributes ``name`` and ``value`` of each child ``<tag>``: ("a", "b") for ``<arg name="a" value="b"/>``."""
         pairs: list[tuple[str, LaunchValue]] = []
         children = entity.entities(tag)
         for child in children:

@@ -29,7 +29,7 @@ _LISTS: Mapping[str, type] = {"strs": str, "ints": int, "floats": float, "bools"
 
 
 class Rejected(Exception):  # noqa: N818
-    """launch rejects the file because of the error ``problem``."""
+    """The package launch would reject the launch file, because of the error ``problem``."""
 
     def __init__(self, kind: str, message: str, span: Span, instead: str = "") -> None:
         super().__init__(message)
@@ -178,8 +178,8 @@ class Entity:
     def _converted(self, name: str, kind: Type) -> Any:
         """Return the text of an XML attribute converted to a type.
 
-        If the element has an attribute ``<name>-sep``, the text is first split at its value: ``a;b`` with ``;`` -> ``a`` and
-        ``b``.
+        If the element has an attribute ``<name>-sep``, the text is first split at the separator in this attribute: ``a;b``
+        with the separator ``;`` -> ``a`` and ``b``.
         """
         value: str | list[str] = self.attributes[name]
         separator = self.attributes.get(f"{name}-sep")
@@ -201,7 +201,10 @@ class Entity:
         return value
 
     def entities(self, tag: str) -> list[Entity]:
-        """Return the children with a tag. Raises Rejected if the value of this key in YAML is not a list of mappings."""
+        """Return the children whose tag is ``tag``.
+
+        In YAML, ``tag`` is a key of the element. Raises Rejected if the value of the key is not a list of mappings.
+        """
         if self.form == "other":
             raise Rejected("wrong-type", f"<{self.tag}> is neither a mapping nor a list", self.span)
         if self.form == "list":
@@ -278,7 +281,10 @@ _NAMES: Mapping[Type, str] = {
 
 
 def _is_valid(value: Any) -> bool:
-    """Return whether a YAML value is a scalar, or a list of scalars of one type and texts (``is_instance_of_valid_type``)."""
+    """Return whether a YAML value has a type that launch accepts for attributes (``is_instance_of_valid_type``).
+
+    The value must be a scalar or a list of scalars. Besides texts, the list may have scalars of only one type.
+    """
     if not isinstance(value, list):
         return isinstance(value, (int, float, bool, str))
     kind = next((type(item) for item in value if type(item) is not str), str)
@@ -288,7 +294,7 @@ def _is_valid(value: Any) -> bool:
 def _is_instance(value: Any, kind: Type) -> bool:
     """Return whether a YAML value has the type ``kind`` (``is_instance_of``).
 
-    A text is accepted for every scalar type, and as an element for every list type, because it may contain substitutions.
+    A text is accepted in place of any scalar, also in a list, because the text may contain substitutions.
     """
     if kind == "any":
         return _is_valid(value)
@@ -376,7 +382,7 @@ _SIMPLE_LIST = re.compile(rf"\[{_ITEM}(?:,{_ITEM})*\]", re.ASCII)
 def _is_suspicious(value: str) -> bool:
     """Return whether YAML may convert a text to another type, e.g. ``1`` or ``[a]``.
 
-    The text must not be empty or in ``_WORDS``.
+    The caller must have excluded the empty text and the words for true and false, such as ``yes`` (``_WORDS``).
     """
     if not (value[0].isalpha() or value[0] in "$/") or value[-1] in ": \t":
         return True

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 
 class Signature(NamedTuple):
-    """The arguments of a class."""
+    """The arguments of a class of launch or launch_ros, in all ROS distributions together."""
 
     most_positional: int
     """The number of arguments that may be passed without keyword. These are the first arguments in ``kinds``."""

@@ -270,8 +270,8 @@ def _plain(texts: Iterable[str]) -> tuple[str, ...]:
 def _guards(texts: Iterable[str], choices: tuple[str, ...]) -> tuple[Conditions, ...]:
     """Return the conditions of each of ``choices``, which are ``texts`` without duplicates.
 
-    The result is () if there is only one choice, or if no choice has conditions. A choice with different conditions in
-    ``texts`` has the conditions ().
+    The result is () if there is only one choice, or if no choice has conditions. The conditions of a choice that occurs in
+    ``texts`` with different conditions are ().
     """
     if len(choices) < 2:
         return ()

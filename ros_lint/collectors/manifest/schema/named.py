@@ -1,4 +1,4 @@
-"""The published schema that a manifest names, and by which ament_xmllint validates the manifest (ament_xmllint/main.py)."""
+"""The published XML schema that a manifest names. ament_xmllint validates the manifest with it (ament_xmllint/main.py)."""
 
 from __future__ import annotations
 

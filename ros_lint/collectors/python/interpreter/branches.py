@@ -49,7 +49,10 @@ NEXT, CONTINUE, BREAK, LEAVE = range(4)
 
 
 def forget_conditions(machine: Interpreter, depth: int) -> None:
-    """Replace the conditions of the interpreted code after the first ``depth`` ones by one unknown condition, if too many."""
+    """Limit the number of conditions of the interpreted code.
+
+    If there are too many after the first ``depth`` conditions, a single unknown condition replaces these later conditions.
+    """
     if len(machine.conditions) > depth + _MOST_CONDITIONS:
         machine.conditions = (*machine.conditions[:depth], machine.fresh(PERHAPS))
 
@@ -323,5 +326,8 @@ def follow_while(machine: Interpreter, node: ast.While, frame: Frame) -> int:
 
 
 def _perhaps(machine: Interpreter, body: Sequence[ast.stmt], frame: Frame, test: ast.expr) -> int:
-    """Interpret the body of a loop that runs an unknown number of times. Return NEXT, because the body may not run at all."""
+    """Interpret the body of a loop that runs an unknown number of times, and return how the loop ends.
+
+    The result is NEXT (the statement after the loop runs), because the body may not run at all.
+    """
     return either(machine, body, (), PERHAPS, frame, loop=True, test=test)
