@@ -17,7 +17,7 @@ def opposite_of(condition: LaunchCondition) -> LaunchCondition:
 def complement(conditions: Iterable[LaunchCondition], fresh: Callable[[LaunchCondition], LaunchCondition]) -> LaunchCondition:
     """Return the condition that holds if and only if at least one of ``conditions`` does not hold.
 
-    If it cannot be written as a Python expression, return ``fresh(PERHAPS)``, that is, a new unknown condition.
+    If no Python expression can represent this condition, return ``fresh(PERHAPS)``, which creates a new unknown condition.
     """
     conditions = tuple(conditions)
     if len(conditions) == 1:

@@ -1,4 +1,7 @@
-"""Models of Python's functions on collections, such as ``sorted`` and ``zip``, for elements that exist only under conditions."""
+"""Results of Python's functions on collections, such as ``sorted`` and ``zip``, in a program that is interpreted symbolically.
+
+An element of a collection may exist only under conditions, for example because a branch appends it.
+"""
 
 from __future__ import annotations
 
@@ -47,7 +50,7 @@ def _under(conditions: Conditions, value: Value) -> Value:
 
 
 def _extreme(function: Callable[..., int]) -> Rule:
-    """Return the model that computes the symbolic result of ``min`` or ``max``."""
+    """Return a function that computes the result of a call of ``min`` or ``max`` in an interpreted program."""
 
     def rule(call: LibraryCall) -> Value:
         values = call.items(0) if len(call.arguments) == 1 else call.arguments
@@ -116,9 +119,10 @@ def _any_all(wanted: bool) -> Rule:
 
 
 def _answer(machine: Interpreter, value: Value, wanted: bool) -> bool | None:
-    """Return the truth of an element of any() (``wanted`` is True) or all() (``wanted`` is False), None if it is unknown.
+    """Return whether ``value``, an element of the argument of any() or all(), is true; None if that is unknown.
 
-    The truth of an element that may be missing is unknown if it would decide the result.
+    ``wanted`` is the truth value of the first element that ends the call: True for any(), False for all(). None is also returned
+    for an element that has this truth value but may be missing.
     """
     answer, _ = truth(machine, value)
     return None if answer is wanted and isinstance(value, Guarded) else answer

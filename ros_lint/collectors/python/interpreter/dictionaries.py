@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def store(machine: Interpreter, owner: dict[Any, Value], key: Any, value: Value) -> None:
-    """Set an item of a dictionary as ``owner[key] = value`` does under the conditions of the interpreted code."""
+    """Set ``owner[key] = value`` in a dictionary, if the conditions hold under which the interpreted code runs."""
     now = machine.conditions
     if not now or (key not in owner and not isinstance(value, Guarded)):
         owner[key] = machine.guard(value)
@@ -56,7 +56,10 @@ def value_or_default(machine: Interpreter, owner: Mapping[Any, Value], key: Any,
 
 
 def entries(machine: Interpreter, owner: Mapping[Any, Value]) -> Iterator[tuple[Any, Value, Conditions]]:
-    """Yield key, value and conditions of each item of a dictionary that may exist under the interpreted code's conditions."""
+    """Yield the items of a dictionary: key, value, and the conditions under which the item exists.
+
+    Items that certainly do not exist where the interpreted code runs are left out.
+    """
     for key, value in owner.items():
         if machine.is_here(value):
             yield key, machine.possible(plain(value)), around(value)

@@ -185,10 +185,10 @@ def _boolean(machine: Interpreter, node: ast.BoolOp, frame: Frame) -> Value:
 
 
 def _together(values: list[Value], word: str) -> Value:
-    """Return the unknown truth value of comparisons that are combined by ``word``: "and" or "or".
+    """Return the truth value of comparisons combined by "and" or "or" (``word``): an Unknown with the condition for True.
 
-    ``values`` are the results of the comparisons. The function returns None if a value is not the result of comparing a text
-    that is known only at launch with a known text.
+    ``values`` are the results of the comparisons, such as ``LaunchConfiguration("a") == "b"``. Each comparison must compare a
+    text that is known only at launch with a known text. Otherwise the result is None.
     """
     parts: list[str] = []
     for value in values:

@@ -80,7 +80,7 @@ class Machine(Interpreter):
     # --- bounds and conditions ------------------------------------------------------------------------------------
 
     def grant(self) -> None:
-        """Replace the budget of steps by a smaller budget, to evaluate results after the program exceeded its budget."""
+        """Allow further steps, so that results can be evaluated after the program has used up its steps."""
         self.budget = Budget(STEPS // 4)
 
     @contextmanager
@@ -107,8 +107,8 @@ class Machine(Interpreter):
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:
         """Return the interpreted module that the import statement ``at`` names, None if the module cannot be interpreted.
 
-        Each module is interpreted once. A module of a released package is represented by a short program of the library, if the
-        library has one for that module.
+        Each module is interpreted once. A module of a released package is replaced by a short program with the same effects, if
+        :meth:`Library.model` returns a program for the module.
         """
         top = name.partition(".")[0]
         known = top in STANDARD_LIBRARY or self.library.describes(top)
@@ -131,7 +131,7 @@ class Machine(Interpreter):
         return self._sources[key]
 
     def _lent(self, function: Function, call: ast.Call, caller: Source) -> tuple[_Definition, Source]:
-        """Return a copy of a function in the model of a released module, and the module of the copy.
+        """Return a copy of a function of a released module, and the module that contains ``call``.
 
         All syntax nodes of the copy have the position of ``call``, so that findings about the function are reported at the call.
         """

@@ -96,7 +96,7 @@ def items(machine: Interpreter, value: Value) -> list[Value] | None:
 
 
 def more(value: Value, reason: str = "elements that are not known") -> Value:
-    """Return a perhaps missing unknown element, which represents any number of unknown elements of a collection."""
+    """Return an element of a collection that represents any number of unknown elements, also none."""
     return Guarded(cause(value, reason), (PERHAPS,))
 
 

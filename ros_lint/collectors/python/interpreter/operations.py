@@ -102,9 +102,9 @@ def truth(machine: Interpreter, value: Value) -> tuple[bool | None, LaunchCondit
 
 
 def _truth_of_list(machine: Interpreter, values: list[Value]) -> tuple[bool | None, LaunchCondition]:
-    """Return the truth of a list whose elements exist only under conditions, and a meaningless condition.
+    """Return whether a list whose elements may be missing is true, and PERHAPS, the unknown condition, as in :func:`truth`.
 
-    The truth is False if all elements are missing, True if no element may be missing, else None.
+    The first result is False if all elements are missing, True if no element may be missing, else None.
     """
     elements = machine.present(values)
     if not elements:
@@ -163,7 +163,7 @@ def _shown(value: Any) -> str:
 def hashable(machine: Interpreter, key: Value) -> Any:
     """Return the key under which the interpreter stores an item of a dictionary: texts, numbers and None are unchanged.
 
-    A collection or launch object is replaced by its text with marks for unknown parts, any other value by UNKNOWN.
+    A tuple, a list or a launch object is replaced by its text at launch, any other value by UNKNOWN.
     """
     if isinstance(key, (str, *_NUMBERS)) or key is None:
         return key
@@ -401,7 +401,7 @@ def _contained(op: ast.cmpop, left: Value, right: Value) -> Value:
 
 
 def _asked(question: str) -> Unknown:
-    """Return an unknown truth value that is true if ``question`` is true, a Python expression that launch can evaluate."""
+    """Return an Unknown: the truth value of ``question``, a Python expression that only launch can evaluate."""
     if UNKNOWN in question:
         return Unknown("comparison with an unknown value")
     return Unknown("a truth", LaunchCondition((expression(question),), None))
@@ -425,7 +425,7 @@ def sliced(machine: Interpreter, owner: Value, parts: list[Value]) -> Value:
 
 
 def waits(text: str) -> bool:
-    """Return whether launch can compute a symbolic text, because it depends only on configurations and environment variables.
+    """Return whether launch can compute a text, because it depends only on launch configurations and environment variables.
 
     True for the text of ``LaunchConfiguration("a")``. False for UNKNOWN, and for a plain text such as ``robot.yaml``.
     """
@@ -444,7 +444,10 @@ def chosen(owner: dict[Any, Value], key: str) -> list[Value]:
 
 
 def without(owner: dict[Any, Value], key: str) -> Conditions:
-    """Return the conditions under which a dictionary has no item ``key``, which is known only at launch, () if unknown."""
+    """Return the conditions under which a dictionary has no item ``key``. The value of ``key`` is known only at launch.
+
+    The result is () if a key of the dictionary is not a known text.
+    """
     if not _is_choice(owner, key):
         return ()
     return tuple([LaunchCondition((str(key),), str(name), wanted=False) for name in owner])

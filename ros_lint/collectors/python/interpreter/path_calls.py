@@ -19,7 +19,10 @@ def _join(call: LibraryCall) -> Value:
 
 
 def on_path(function: Callable[[str], str]) -> Rule:
-    """Return the model that computes the symbolic result of a function from a path to a text, such as ``os.path.dirname``."""
+    """Return a function that computes the result of a call such as ``os.path.dirname(path)`` in an interpreted program.
+
+    ``function`` computes the result for one path, which may have parts that are known only at launch.
+    """
     return lambda call: call.result(joined([call.texts(0)], lambda row: function(row[0])))
 
 

@@ -60,7 +60,10 @@ class Library(Protocol):
         ...
 
     def texts(self, value: Value, budget: Budget) -> tuple[str, ...]:
-        """Return every text that a value can become at launch, with marks for unknown parts. Steps are taken from ``budget``."""
+        """Return every text that a value can become at launch. Characters of the private use area represent unknown parts.
+
+        Raises BudgetExceeded if the evaluation needs more steps than ``budget`` has left.
+        """
         ...
 
     def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
@@ -68,7 +71,10 @@ class Library(Protocol):
         ...
 
     def misuse(self, made: LaunchObject, how: How) -> How | None:
-        """Return the kind of misuse if the operation ``how`` misuses an object of the library, None if it is correct."""
+        """Return the kind of error if the operation ``how`` uses a launch object as a text or truth value, None if it is valid.
+
+        ``"a" + LaunchConfiguration("b")`` -> "added"
+        """
         ...
 
 
@@ -135,15 +141,21 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def texts(self, value: Value) -> tuple[str, ...]:
-        """Return every text that a value can become at launch, with marks for unknown parts. Raises BudgetExceeded."""
+        """Return every text that a value can become at launch. Characters of the private use area represent unknown parts.
+
+        Raises BudgetExceeded.
+        """
 
     @abstractmethod
     def record_division(self, node: ast.expr, frame: Frame) -> None:
-        """Record that the expression ``node`` divides a text by a text, which raises TypeError, if it certainly runs."""
+        """Record that the expression ``node`` raises TypeError, because it divides a text by a text.
+
+        Nothing is recorded unless the expression certainly runs.
+        """
 
     @abstractmethod
     def record_misuse(self, value: Value, how: How, node: ast.expr, frame: Frame) -> None:
-        """Record that the operation ``how``, if it certainly runs, misuses ``value``, an object of the library.
+        """Record that the operation ``how`` wrongly uses ``value``, a launch object, as a text or truth value.
 
-        An operation that is correct for the object is not recorded.
+        Nothing is recorded unless the operation certainly runs, or if it is valid for the object.
         """

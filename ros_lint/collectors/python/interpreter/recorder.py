@@ -155,13 +155,16 @@ class Recorder:
         return any(isinstance(value, Guarded) and not set(around(value)) <= {*self.conditions} for value in values)
 
     def is_at(self, values: Sequence[Value], key: int | slice) -> bool:
-        """Return whether the elements at an index or slice of a list are certain, although some elements may be missing."""
+        """Return whether it is certain which elements an index or slice of a list selects, although elements may be missing."""
         if isinstance(key, slice):
             return not self.any_perhaps(values)
         return not self.any_perhaps(values[: key + 1] if key >= 0 else values[key:])
 
     def removed(self, value: Value) -> Value:
-        """Return an element that the interpreted code removes, as a value that exists if a condition of this code is false."""
+        """Return an element that the interpreted code removes, as a value that still exists where this code does not run.
+
+        That is where at least one condition of the code is false.
+        """
         first, *others = self.conditions
         remains = first._replace(wanted=not first.wanted)
         if others:
@@ -175,9 +178,9 @@ class Recorder:
             self.stopped_at = statement, source
 
     def joined(self, values: Sequence[Guarded]) -> Value:
-        """Return one value with ``values`` as alternatives.
+        """Return one value with ``values`` as alternatives, Unknown if there are too many alternatives.
 
-        If there are too many, return Unknown, and record that code that is not interpreted gets the values.
+        If the result is Unknown, the launch objects in ``values`` are marked as escaped: they may be launched.
         """
         joined_value = union(values)
         if isinstance(joined_value, Unknown):
@@ -243,7 +246,7 @@ class Recorder:
         self.variables.append(made)
 
     def variable(self, name: str, default: str | None = None) -> Value:
-        """Return the value of an environment variable: the value that the program set, else a symbolic text."""
+        """Return the value of an environment variable: the value that the program set, else a text known only at launch."""
         return self._variables[name] if name in self._variables else environment(name, default)
 
     def sets(self, names: Iterable[str]) -> bool:

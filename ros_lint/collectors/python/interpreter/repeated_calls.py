@@ -50,12 +50,11 @@ class UnderWay(NamedTuple):
 def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value], recorder: Recorder) -> bool:
     """Append a call to ``under_way`` and return True, or return False if the call repeats a call in ``under_way``.
 
-    A repeating call must not be interpreted. A call repeats an outer call of the same function if it reads the same values and
-    runs under more conditions. If it runs under no further condition, all tests before it had known results, so these
-    results end the recursion.
+    A call repeats an outer call of the same function if it reads the same values and runs under more conditions. The caller
+    must not interpret a repeating call. A call without further conditions repeats nothing, because tests with known results
+    end the recursion.
 
-    ``names`` are the values of the parameters, by name. ``recorder`` has the conditions under which the call runs. Values
-    are compared from the second nested call on, because most functions are not recursive.
+    ``names`` are the values of the parameters, by name. ``recorder`` has the conditions under which the call runs.
     """
     outline, conditions = None, len(recorder.conditions)
     outer = [call for call in under_way if call.node is function.node and call.conditions < conditions]
@@ -68,7 +67,10 @@ def begin(under_way: list[UnderWay], function: Function, names: dict[str, Value]
 
 
 def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
-    """Return the values of the outer names that a function and the functions called by it may read, by name and frame."""
+    """Return the values of the outer names that a function, and the functions that it calls, may read.
+
+    The keys are pairs of a name and the module or function that binds the name.
+    """
     values: dict[tuple[str, Frame], Value] = {}
     waiting, seen = [function], {function.node}
     while waiting:

@@ -142,7 +142,10 @@ def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
 
 
 def _finally(machine: Interpreter, node: ast.Try, frame: Frame, before: Conditions) -> int:
-    """Interpret the finally block of a try statement under the conditions ``before`` the statement, and return how it ends."""
+    """Interpret the finally block of a try statement, and return how the block ends: NEXT, CONTINUE, BREAK or LEAVE.
+
+    ``before`` are the conditions under which the try statement runs. The finally block runs under the same conditions.
+    """
     after, machine.conditions = machine.conditions, before
     signal = execute(machine, node.finalbody, frame)
     machine.conditions = (*after, *machine.conditions[len(before) :])
@@ -244,7 +247,10 @@ _LEAVING = frozenset({"abc", "builtins", "contextlib", "functools", "launch_test
 
 
 def _decorated(machine: Interpreter, function: Function, decorator: ast.expr, frame: Frame) -> Value:
-    """Return a function as its decorator changes it. If the decorator is unknown, set ``changed`` of the function."""
+    """Return the function that a decorator makes of ``function``.
+
+    If the decorator is unknown, return ``function`` with the attribute ``changed`` set to True.
+    """
     name = machine.evaluate(decorator.func if isinstance(decorator, ast.Call) else decorator, frame)
     if isinstance(name, LibraryName) and name.name.partition(".")[0] in _LEAVING:
         return function

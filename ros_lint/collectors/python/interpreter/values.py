@@ -74,8 +74,8 @@ def written(text: str, node: ast.expr, source: Source) -> Written:
 class Unknown:
     """An unknown value; ``reason`` says what is unknown.
 
-    The value is true under ``condition``, None if no such condition is known. ``node`` is the expression from which the
-    unknown value comes, None if the interpreter does not record it.
+    ``condition`` is the condition under which the value is true, None if it is not known. ``node`` is the expression from which
+    the unknown value comes, None if the interpreter does not record it.
     """
 
     __slots__ = ("condition", "node", "reason")
@@ -188,7 +188,10 @@ class LaunchObject:
         return self.arguments[position] if 0 <= position < len(self.arguments) else None
 
     def may_hide(self, *names: str) -> bool:
-        """Return whether unknown ``**keywords`` may contain an argument in ``names``, because none of them is given."""
+        """Return whether unknown ``**keywords`` of the call may contain an argument with a name in ``names``.
+
+        The result is False if the call has such an argument outside of ``**keywords``.
+        """
         return UNKNOWN in self.keywords and self.keywords.keys().isdisjoint(names)
 
     def written(self, position: int, *names: str) -> ast.expr:
@@ -329,7 +332,7 @@ class Class:
 class Instance:
     """An object of a class that the program defines.
 
-    If a launch class is the base of that class, ``made`` is the launch object that the object represents.
+    If its class derives from a launch class, such as Node, ``made`` is the object of the launch class, else None.
     """
 
     __slots__ = ("attributes", "cls", "conditions", "made")
