@@ -179,7 +179,10 @@ def is_settled(text: str) -> bool:
 
 
 def configurations(text: str) -> Iterator[tuple[str, bool, str]]:
-    """Yield the launch configurations in a text that contain no other one: name, whether it has a default, and its mark."""
+    """Yield the launch configurations in a text: name, whether it has a default, and the characters that represent it.
+
+    A configuration whose name or default contains another configuration is left out.
+    """
     for match in _INNERMOST.finditer(text):
         name, mark, _ = match[1].partition(_DEFAULT)
         yield name, bool(mark), match[0]
@@ -250,7 +253,7 @@ def may_contain_place(text: str, configurations: Container[str] = ()) -> bool:
 def configurations_with_places(values: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
     """Return the names of the launch configurations whose values may contain an install place or a command of xacro.
 
-    ``values`` has the values of each configuration. A value may refer to another configuration whose value contains it.
+    ``values`` has the possible values of each configuration, by name. A value may contain another configuration.
     """
     result: set[str] = set()
     candidates: dict[str, tuple[str, ...]] = {}

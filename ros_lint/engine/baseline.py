@@ -51,9 +51,9 @@ class Baseline(NamedTuple):
     def hide_known(self, report: Report, name: str, folders: Sequence[str], where: str = "listed in") -> Report:
         """Return a report without the known findings, and with a warning about known findings that no longer occur.
 
-        ``name`` is the name of the baseline file in messages, and ``where`` the words before the name. ``folders`` are
-        the checked folders. The warning is given only if they equal the folders in the file, because findings in other
-        folders may still occur.
+        ``name`` is the name of the baseline file in messages, and ``where`` the words before it, such as "listed in". ``folders``
+        are the checked folders. If they differ from the folders in the baseline file, there is no warning, because the known
+        findings may still occur in folders that were not checked.
         """
         counts = Counter(map(_key, report.issues))
         shown = tuple([issue for issue in report.issues if counts[_key(issue)] > self._number(_key(issue))])

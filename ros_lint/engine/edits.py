@@ -106,9 +106,8 @@ def write(path: str, data: bytes) -> None:
 def write_all(base: str, changed: Mapping[str, bytes], before: Mapping[str, bytes]) -> None:
     """Replace or create files, each of them atomically. ``changed`` has the new contents by path relative to ``base``.
 
-    ``before`` has the contents on which the changes are based, without the files to create. A file that has other
-    contents now is not written. Raises EditError. If a file is read-only or has other contents, the error is raised
-    before any file is written.
+    ``before`` has the contents that the existing files had when ``changed`` was computed. Raises EditError if a file cannot
+    be written or no longer has these contents. All files are checked before the first is written.
     """
     targets = {path: os.path.realpath(os.path.join(base, path)) for path in changed}
     for path, target in targets.items():

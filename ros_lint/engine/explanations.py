@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] = ()) -> tuple[Issue, ...]:
     """Return the issues that are no consequence of another issue. ``explained`` of each issue has its consequences.
 
-    - A cause explains findings in its own package of at most its own confidence, if it occurs in all of their
-      distributions.
+    - A cause explains only findings in its own package whose confidence is not higher than that of the cause, and only if
+      the cause occurs in every distribution in which the finding occurs.
     - A cause gets the severity of its most severe consequence, unless its rule is one of ``fixed_severities``.
     - If issues explain only each other, all of them are returned.
     """

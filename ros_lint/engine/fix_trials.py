@@ -41,11 +41,11 @@ class Trial(NamedTuple):
     issues: tuple[Issue, ...]
 
     def identity_counts(self) -> Counter[DistroIdentity]:
-        """Return the number of issues for each pair of a distribution and an identity."""
+        """Return the number of issues for each pair of a distribution and an identity (rule, package and subject)."""
         return self._counts(self.issues)
 
     def serious_counts(self) -> Counter[DistroIdentity]:
-        """Return the number of :attr:`serious` issues for each pair of a distribution and an identity."""
+        """Return the counts of :meth:`identity_counts` for the issues in :attr:`serious` only."""
         return self._counts(self.serious)
 
     def _counts(self, issues: Iterable[Issue]) -> Counter[DistroIdentity]:
@@ -57,7 +57,10 @@ class Trial(NamedTuple):
         return [issue for issue in self.issues if issue.rule.default and issue.finding.confidence is Confidence.HIGH]
 
     def identities(self, issue: Issue) -> list[DistroIdentity]:
-        """Return the identity of an issue for each distribution that has it, in pairs with the distribution."""
+        """Return pairs of a distribution and the identity of an issue: one pair for each distribution with the issue.
+
+        The identity is the rule, the package and the subject of the issue.
+        """
         return [(distro, issue.identity) for distro in issue.distros or self.workspaces[0].target.distros]
 
 
@@ -113,7 +116,10 @@ class FixTrials:
         return b"".join(unified_bytes(path, self._loader.pinned.get(path), data) for path, data in sorted(changed.items()))
 
     def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
-        """Return the issues to show whose fixes can be applied: of the selected kind, and only in files that may be changed.
+        """Return the issues to show whose fixes can be applied.
+
+        These are the safe fixes, and the unsafe fixes if they are selected, that edit only files which may be changed.
+
 
         Spans of edits are valid only for one version of a file. Therefore the loader keeps the bytes of the files to
         edit, and the workspace is checked again with these bytes.
@@ -172,7 +178,7 @@ class FixTrials:
         return next(filter(None, map(self._writable.refusal, _edited_files(issue))), "")
 
     def _fixable_issues(self, changed: Mapping[str, bytes]) -> list[Issue]:
-        """Return the issues to show that have a fix of the selected kind: safe, or also unsafe."""
+        """Return the issues to show that have a safe fix, or an unsafe fix if unsafe fixes are selected."""
         issues = [issue for issue in self.trial(changed).issues if issue.rule in self._selection.rules]
         if self._only is not None:
             issues = [issue for issue in issues if issue.rule.name in self._only]

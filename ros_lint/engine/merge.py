@@ -24,7 +24,7 @@ def merge(issues_by_distro: Sequence[tuple[str, Sequence[Issue]]]) -> tuple[Issu
     - Findings are merged into one if rule, package, subject, place, severity and confidence are equal.
     - The message is that for the first distribution with the finding. It ends with "(reported only for jazzy)" if not all
       distributions have the finding.
-    - Its fix is safe only if every distribution has a safe fix with the same edits, of any rule.
+    - Its fix is safe only if every distribution has a safe fix with the same edits. That may be the fix of another finding.
     - It explains another finding only if it does so in every distribution that has the other finding.
 
     The result is not sorted.
@@ -62,10 +62,10 @@ class _DistroFindings:
         return frozenset([*subjects, *((package, rule, "") for package, rule, _ in subjects)])
 
     def accepts(self, entry: Consequence, issue: Issue) -> bool:
-        """Return whether the merged finding may explain ``entry``, as far as this distribution is concerned.
+        """Return whether a merged finding may explain the findings that ``entry`` describes, judging by this distribution.
 
-        ``issue`` is the finding for this distribution. It must explain ``entry``, or this distribution must have no
-        finding that ``entry`` describes.
+        ``issue`` is the part of the merged finding for this distribution. It must explain these findings too, unless this
+        distribution has no such finding.
         """
         return entry in issue.finding.explains or (issue.package, entry.rule, entry.subject) not in self._subjects
 

@@ -27,7 +27,7 @@ _SELECTORS = ("all", "default")
 
 
 class PluginError(UserError):
-    """A plugin cannot be loaded, or one of its rules has an invalid name or code, or that of another rule."""
+    """A plugin cannot be loaded, or a rule of the plugin has an invalid name or code, or the name or code of another rule."""
 
 
 class Plugin(NamedTuple):

@@ -19,7 +19,7 @@ _MOST_REPORTS = 8
 
 
 class _CachedReport(NamedTuple):
-    """A report, and the recorded answers of the disk on which the report depends: one entry for each file tree."""
+    """A report, and the state of the files and folders on which it depends, as recorded by each file tree of the run."""
 
     report: Report
     answers: tuple[Answers, ...]
@@ -40,11 +40,11 @@ class ReportCache:
             self._name = self._prefix + digest(options)
 
     def __bool__(self) -> bool:
-        """Return whether reports are cached in this run."""
+        """Return True if the cache is in use, False if it is switched off."""
         return bool(self._file)
 
     def fetch(self, trees: Sequence[RecordedTree]) -> Report | None:
-        """Return the cached report if the file trees give the same answers as when it was stored, else None."""
+        """Return the cached report if no file or folder on which it depends has changed since it was stored, else None."""
         cached = self._file.read(lambda name: name == self._name, self._codec).get(self._name) if self._file else None
         if cached is None or len(cached.answers) != len(trees):
             return None
@@ -61,7 +61,7 @@ class ReportCache:
         return cached.report
 
     def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
-        """Store a report with the answers of the file trees in this run.
+        """Store a report with the state of the files that were read from ``trees`` in this run.
 
         The functions of the rules in the report are not stored. Nothing is stored if a rule crashed or a file changed
         during the run.

@@ -104,7 +104,7 @@ def _first_line(entry: tuple[Suppression, Name]) -> int:
 
 
 def _unknown(comment: Suppression, name: Name, spellings: Mapping[str, str]) -> UnknownSelector:
-    """Return the entry for an unknown rule name in a comment.
+    """Return the unknown rule name in a comment, with a similar known name or the fate of a former rule.
 
     ``spellings`` has the names and codes of all rules, by their lower-case form.
     """

@@ -26,7 +26,7 @@ class Role(Flag):
 
 
 class DependencyKind(NamedTuple):
-    """The meaning of a dependency tag such as ``exec_depend``: its purpose, its letters in our data, and its effect in colcon."""
+    """The meaning of a dependency tag such as ``exec_depend``: purpose, letters in the package index, effect in colcon."""
 
     role: Role
     letters: str

@@ -75,7 +75,7 @@ class NewerSyntax(NamedTuple):
 
 
 class Problem(NamedTuple):
-    """An error in a file for which the tools that read the file report an error or fail."""
+    """An error in a file that makes a tool fail, or report an error, when it reads the file."""
 
     kind: str
     """Short stable name of the kind of error, such as "unknown-tag"."""

@@ -249,5 +249,5 @@ class Knowledge:
         return tuple(distro for distro in self._data.distros if self.rosdep.resolves(key, distro))
 
     def resolves(self, key: str) -> bool | None:
-        """Return whether a rosdep key has a rule for a platform of the distribution; None if either is unknown."""
+        """Return whether a rosdep key has a rule for a platform of the distribution; None if key or platform is unknown."""
         return self.rosdep.resolves(key, self.distro)

@@ -71,7 +71,7 @@ class InstallPrefix:
         return tuple(sorted(names))
 
     def recorded_dependencies(self, package: str) -> tuple[str, ...] | None:
-        """Return the run-time dependencies of a package that ament or colcon recorded in the build, sorted; None if none did.
+        """Return the run-time dependencies of a package as recorded by ament or colcon in the build, sorted; None without record.
 
         The record of ament includes test dependencies.
         """

@@ -74,7 +74,7 @@ class Names:
         self._traceless: dict[str, bool] = {}
 
     def cmake(self, name: str) -> tuple[str, ...]:
-        """Return the ROS packages and rosdep keys, named differently, that provide the argument ``name`` of find_package().
+        """Return the ROS packages and rosdep keys with another name that provide ``name``, the argument of find_package().
 
         It is enough to declare one of them. ``("-",)`` means that a module of CMake has this name, so no package is
         needed.
@@ -178,7 +178,7 @@ class Names:
         return tuple(distro for letter, distro in END_OF_LIFE.items() if letter in letters)
 
     def called(self, key: str) -> tuple[str, ...]:
-        """Return words of which at least one occurs in any source that uses the library of a rosdep key.
+        """Return words for a search: every source that uses the library of a rosdep key contains at least one of them.
 
         These are the words in the name of the key, in lower case, and the names of its headers, modules and CMake
         packages.

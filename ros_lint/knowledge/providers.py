@@ -156,7 +156,7 @@ def by_include(world: Layers, header: str) -> Providers:
 
 
 def by_include_folder(world: Layers, folder: str) -> Providers:
-    """Return the package with the name of an include folder as the provider of headers below this folder."""
+    """Return the package named like an include folder. By convention, it provides the headers below this folder."""
     return _existing(world, (folder,))
 
 
@@ -281,7 +281,10 @@ def near(world: Layers, name: str, *, python: bool) -> tuple[str, ...]:
 
 
 def _other_names(world: Layers, name: str, *, python: bool) -> Iterator[Suggestion | None]:
-    """Yield a suggestion or None for each reading of a name as CMake package, header folder, module, apt package, pip package."""
+    """Yield the names that may be meant by an unknown name, None for each kind of name in which none fits.
+
+    The kinds are, for example, a CMake package, a header folder, a Python module, an apt package and a pip package.
+    """
     names, rosdep = world.knowledge.names, world.knowledge.rosdep
     bare = name.removeprefix("python3-").removeprefix("python-").removesuffix("-pip").removesuffix("-python")
     if python or bare != name:
@@ -319,17 +322,16 @@ def _declarable(world: Layers, names: Iterable[str]) -> tuple[str, ...]:
 
 
 def _has_module(world: Layers, package: str) -> bool:
-    """Return whether a package may have a Python module of its own name; False for a package of the workspace."""
+    """Return whether a package may have a Python module named like the package; False for a package of the workspace."""
     if world.layer(package) == "workspace":
         return False  # the build script has been consulted already
     return world.is_package(package) and world.python_modules(package).ask(package) != "missing"
 
 
 def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the packages in the first entry of ``owners`` that has any.
+    """Return the packages of the topmost underlay in ``owners`` that has packages which the workspace does not override.
 
-    Packages that the workspace overrides do not count. ``owners`` has a tuple of packages for each underlay, the topmost
-    first.
+    ``owners`` has a tuple of packages for each underlay, the topmost first. Overridden packages are left out.
     """
     for names in owners:
         visible = tuple(name for name in names if world.layer(name) == "underlay")

@@ -1,6 +1,6 @@
 """The contents of released packages, such as executables, and their file format (``.prov``; docs/knowledge.md).
 
-The file has a line for each package. A look-up answers that a name exists, is missing, or cannot be known.
+The file has a line for each package. For some names, the file does not decide whether they exist.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Known(NamedTuple):
         return (*self.names, *self.maybe)
 
     def ask(self, name: str) -> Answer:
-        """Return whether a name exists, is missing, or cannot be known."""
+        """Return "exists" or "missing" for a name, "unknowable" if the known names do not decide whether it exists."""
         if name in self.names:
             return "exists"
         if not self.complete or name in self.maybe or (self.endings and not name.endswith(self.endings)):

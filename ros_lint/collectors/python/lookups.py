@@ -64,7 +64,7 @@ def literals(source: Text) -> Found | None:
 
 
 def in_excerpt(source: Text) -> Found:
-    """Return the package look-ups of a source by parsing it without the functions that cannot change the result.
+    """Return the package look-ups of a source, parsed after the removal of functions that do not affect the result.
 
     The result is equal to the result of :func:`look_ups`. Raises :class:`NotPythonError`.
     """
@@ -116,7 +116,7 @@ def _found(source: Text, tree: ast.Module, telling: Iterable[tuple[Expression, l
 def _telling(expressions: list[Expression]) -> Iterator[tuple[Expression, list[tuple[ast.Call, ast.expr]]]]:
     """Yield the expressions that look up a package, directly or through a variable that has the result of a look-up.
 
-    Each expression has its look-up calls, with the argument that is the package name.
+    Each expression is followed by the look-up calls in it: the call, and the argument with the package name.
     """
     calls = [list(_calls(expression.inner)) for expression in expressions]
     names = [{node.id for node in expression.inner if node.__class__ is ast.Name} for expression in expressions]

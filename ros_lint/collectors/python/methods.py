@@ -1,6 +1,6 @@
 """String methods and constants of Python that the evaluators of launch files, setup.py and substitutions treat in the same way.
 
-The results of the methods are no longer than their arguments. Each evaluator defines the results for unknown values,
+No method returns a text that is longer than its arguments. Each evaluator defines the results for unknown values,
 and for all other methods.
 """
 

@@ -107,7 +107,7 @@ class _Rewriter:
         self._newer.append(Newer(construct, version, self._code[first].start, self._code[last].end))
 
     def _name(self, index: int, word: str, *, fresh: bool) -> int:
-        """Rewrite the newer construct that begins with the word at ``index``, if there is one.
+        """Rewrite the construct that begins with the word at ``index``, if it is newer than Python 3.10.
 
         Return the index of the next token to process. ``fresh`` is True if a statement may begin at the word.
         """

@@ -27,8 +27,8 @@ _CONVERSIONS: Final = {"": -1, "a": 97, "r": 114, "s": 115}
 def restore(tree: ast.Module, source: Text, rewritten: Rewritten, expression: Callable[[str, int], ast.expr]) -> None:
     """Change the tree of a rewritten source so that it becomes the tree of the original source. Raises TokenError.
 
-    ``expression(text, offset)`` parses ``text``, an expression in brackets from the offset ``offset`` of the source. It may
-    raise any exception.
+    ``expression(text, offset)`` returns the tree of ``text``, an expression in brackets at ``offset`` in the source. Exceptions
+    of this function are passed on.
     """
     restorer = _Restorer(source, rewritten, expression)
     for node in ast.walk(tree):

@@ -1,4 +1,7 @@
-"""Parses unusual Python sources: sources with newer syntax, and sources that nest deeply. Limits are checked first."""
+"""Parses unusual Python sources: sources with syntax newer than Python 3.10, and sources that nest deeply.
+
+A source that exceeds a limit of ros-lint, such as the depth of nested expressions, is rejected before it is parsed.
+"""
 
 from __future__ import annotations
 

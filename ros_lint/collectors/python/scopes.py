@@ -55,7 +55,7 @@ class Expression(NamedTuple):
 class PythonScope:
     """The names that a module, a class or a function binds, with their bindings.
 
-    ``shared`` is True for modules and classes, and False for functions.
+    ``shared`` is True for a module or class, whose names all functions of the file can use; False for a function.
     """
 
     __slots__ = ("bindings", "parent", "shared")
@@ -236,9 +236,10 @@ def reaching(name: str, where: Where) -> Iterator[Binding] | None:
 
 
 def _last(bindings: Sequence[Binding], block: Block) -> list[Binding]:
-    """Return the bindings that may hold in a block after all of ``bindings``, which are in textual order.
+    """Return those of the ``bindings`` of a name that may be in effect at the end of ``bindings`` in ``block``.
 
-    These are the last binding that certainly runs, and all later bindings, which run only in branches.
+    ``bindings`` are in textual order. The result is the last binding that certainly runs, and all later bindings, which run
+    only in branches.
     """
     possible: list[Binding] = []
     for binding in bindings:

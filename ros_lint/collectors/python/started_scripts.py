@@ -34,7 +34,7 @@ def runs_when_started(source: Text, *, is_program: bool) -> bool:
 
 
 def _calls(body: Sequence[ast.stmt]) -> Iterator[ast.Call]:
-    """Yield the calls in statements that run when a module is imported. Assignments are left out, also by ``setattr()``."""
+    """Yield the calls in statements that run when a module is imported, except in assignments and calls of ``setattr()``."""
     for statement in body:
         if isinstance(statement, ast.Expr) and not _is_setattr(statement.value):
             yield from (node for node in ast.walk(statement) if isinstance(node, ast.Call))

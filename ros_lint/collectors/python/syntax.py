@@ -214,7 +214,7 @@ def is_of_others(source: Text) -> bool:
 def placed(node: _Tree, at: ast.AST) -> _Tree:
     """Return a copy of a syntax tree in which all nodes have the position of ``at``.
 
-    Text constants become f-strings, so that no finding about a literal, and no fix of it, refers to that position.
+    Text constants become f-strings, because a finding or fix for a text constant would assume that the text is at its position.
     """
     copy = type(node)(**{name: _placed_field(value, at) for name, value in ast.iter_fields(node)})
     return ast.copy_location(copy, at)

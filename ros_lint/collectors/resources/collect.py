@@ -73,9 +73,9 @@ def controller_managers(source: Text) -> tuple[Mention, ...]:
 def _packages(source: Text) -> FileFacts:
     """Return the packages that a resource file names, each at its first place, and the files that it looks up in them.
 
-    A mention (a name that may belong to another package) is optional if nothing looks up the name: only a convention says that
-    it is a package, or the file is a ROS 1 launch file. A mention has the purpose "conditional" if all its places are in blocks
-    that xacro leaves out by default.
+    A mention (a name that may belong to another package) is optional in two cases: the form of its text suggests a package, but
+    nothing looks it up; or the file is a ROS 1 launch file. A mention has the purpose "conditional" if all its places are in
+    blocks that xacro leaves out by default.
     """
     text = source.text
     places: dict[str, tuple[int, int]] = {}
@@ -155,7 +155,7 @@ def _search(pattern: re.Pattern[str], text: str, places: dict[str, tuple[int, in
 def _in_class(text: str, at: int) -> bool:
     """Return whether an offset is in a ``<class>`` tag of a plugin description.
 
-    Packages in such a tag are left out, because the C++ code of the plugin includes their headers anyway.
+    A package name in such a tag is not recorded, because the C++ code of the plugin includes headers of the package anyway.
     """
     return _PLUGIN.match(text, max(text.rfind("<", 0, at), 0)) is not None
 

@@ -139,8 +139,9 @@ class Distribution:
     def _discovered(self, folders: dict[str, str]) -> tuple[list[str], dict[str, str]]:
         """Return the packages that setuptools (since 61) discovers without the option ``packages``, and their folders.
 
-        These are the packages in the root folder of ``package_dir`` or in src/. Without such a folder, they are the only
-        top-level package and its subpackages. The folders have the form of the option ``package_dir``.
+        These are the packages in the root folder that ``package_dir`` names, else in src/. If neither folder exists, they are the
+        only top-level package next to setup.py and its subpackages, none if there are several top-level packages. The folders
+        have the form of the option ``package_dir``.
         """
         files = self._context.files
         if "" in folders or files.is_folder("src"):

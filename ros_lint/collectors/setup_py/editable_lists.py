@@ -21,8 +21,8 @@ _OPTIONS = ("data_files", "packages")
 def collect(source: Text, package: str) -> tuple[EditableList, ...]:
     """Return the list literals that are the values of ``data_files``, ``packages`` and ``console_scripts``.
 
-    The result is () unless setup.py has exactly one call of setup(). ``package`` is the name of the package. Each result
-    records the variable that has this name as its value, "" if there is no such variable.
+    The result is () unless setup.py has exactly one call of setup(). Each result has the name of the variable
+    whose value is the package name ``package``, "" if there is no such variable.
     """
     try:
         tree = parse(source)
@@ -105,8 +105,8 @@ def _slot(source: Text, option: str, found: ast.List, variable: str) -> Editable
 def _joins(found: ast.List) -> str:
     """Return how a list of data_files composes the names of its folders.
 
-    ``os.path.join("share", name)`` -> ``os.path.join``, ``f"share/{name}"`` -> ``f``. The last folder that is not a plain text
-    decides. The result is "" for any other expression, and for a list of plain texts.
+    ``os.path.join("share", name)`` -> ``os.path.join``, ``f"share/{name}"`` -> ``f``. The result is "" for any other expression.
+    It is computed for the last folder that is not a plain text; it is "" if all folders are plain texts.
     """
     folders = [element.elts[0] for element in found.elts if isinstance(element, ast.Tuple) and element.elts]
     for folder in reversed(folders):

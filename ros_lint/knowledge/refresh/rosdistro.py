@@ -98,7 +98,7 @@ def _described(
 
 
 def load_yaml(place: str) -> Any:
-    """Return the contents of a YAML file as Python values. ``place`` is its path or URL, and a gzip file is unpacked.
+    """Return the contents of a YAML file as Python values. ``place`` is its path or URL. A gzip file is unpacked first.
 
     Raises KnowledgeError if the file is unreadable or invalid.
     """

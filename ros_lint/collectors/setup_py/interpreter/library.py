@@ -156,7 +156,10 @@ class SetupLibrary:
         return None
 
     def _generate_distutils_setup(self, call: LibraryCall) -> Value:
-        """Return the result of generate_distutils_setup() of catkin_pkg: given options, package name and unknown version."""
+        """Return the result of generate_distutils_setup() of catkin_pkg: the options of setup().
+
+        These are the name of the package, an unknown version, and the keywords of the call.
+        """
         version = Unknown("the version in package.xml is not read", None, call.node)
         return {"name": self._package, "version": version, **call.keywords}
 
@@ -165,9 +168,9 @@ class SetupLibrary:
 
 
 def _on_known(function: Callable[..., Value]) -> Rule:
-    """Return the model of a function that can be applied only to known arguments, as it does not handle unknown values.
+    """Return a function that computes the result of a call by ``function``, Unknown if an argument of the call is unknown.
 
-    Paths of pathlib are passed as texts.
+    Paths of pathlib are passed to ``function`` as texts.
     """
 
     def rule(call: LibraryCall) -> Value:

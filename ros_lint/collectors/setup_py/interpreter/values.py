@@ -80,8 +80,8 @@ def _inner(value: Value) -> tuple[Value, ...]:
 def unknown_in(values: Iterable[Value], tests: Mapping[tuple[str, ...], ast.expr]) -> Unknown | None:
     """Return the first unknown value among ``values`` and their elements, None if everything is known.
 
-    If no element is unknown, but one depends on an unknown condition, or the values are too large, return an Unknown that says
-    so. ``tests`` are the tested expressions, by the texts of their conditions.
+    If the values are too large, or an element depends on an unknown condition, return an Unknown with this reason. ``tests``
+    has the tested expression of each condition, which the reason quotes.
     """
     waiting = [*values]
     if not is_followed(waiting):
@@ -114,10 +114,10 @@ class Deciding:
         self._tests = tests
 
     def option(self, value: Value) -> Value:
-        """Return a value without alternatives that contradict the conditions.
+        """Return the value of an option of setup() without the alternatives that contradict the conditions.
 
-        A list element that may be missing is Guarded in the result. If several alternatives are left, the result is Unknown.
-        Exception: for lists, the result is one list, and the elements that not every list has are Guarded.
+        If several alternatives are left, the result is Unknown. Exception: several lists become one list. List elements that may
+        be missing are Guarded, that is, they have the conditions under which they exist.
         """
         return self._of(value) if is_followed((value,)) else Unknown("it is too large to be evaluated")
 
