@@ -1,1 +1,1 @@
-"""The type of a rule, and analyses of a package and its workspace that several rules share."""
+"""The class of rules, and analyses of packages and workspaces that several rules share."""

@@ -67,7 +67,10 @@ class Related(NamedTuple):
 
 
 class Consequence(NamedTuple):
-    """The findings of a rule about a subject that need no report, because another finding in the package explains them."""
+    """Findings that are not reported, because a reported finding in the package explains them.
+
+    They are the findings of ``rule`` about ``subject``, e.g. the rule "unused-dependency" and the subject "rclpy".
+    """
 
     rule: str
     """Name of the rule of the explained findings."""

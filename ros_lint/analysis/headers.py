@@ -97,7 +97,7 @@ def _name(path: str) -> str:
 
 @cached_by_workspace
 def _includes(workspace: Workspace) -> Mapping[str, list[tuple[Package, Use]]]:
-    """Return the includes of headers of other packages, by the name of the package that is included."""
+    """Return the places where packages include headers of other packages, by the name of the package with the header."""
     includes: dict[str, list[tuple[Package, Use]]] = {}
     for package in workspace.packages:
         if package.script is None or _searches_outside(package):

@@ -23,7 +23,7 @@ class ByName(tuple[T, ...], Generic[T]):
 
     @cached_property
     def _index(self) -> dict[str, tuple[list[int], list[T]]]:
-        """For each name, the positions in the tuple of the items with this name, and these items."""
+        """The items of the tuple by name: for each name, the positions of its items, and the items."""
         index: dict[str, tuple[list[int], list[T]]] = {}
         for position, item in enumerate(self):
             positions, items = index.setdefault(item.name, ([], []))

@@ -144,7 +144,7 @@ class _Reader:
 class _Column(Protocol):
     """Encodes and decodes all values at one position in the structure of a type, e.g. one field.
 
-    No values are encoded as no bytes.
+    An empty sequence of values is encoded as b"".
     """
 
     def write(self, writer: _Writer, values: Sequence[Any]) -> None:
@@ -266,7 +266,7 @@ class _Rows:
 
 
 class _Plan:
-    """Derives the column for a type from its annotations, and records the definitions of all classes in it."""
+    """Derives the column for a type from the annotations of the type, and records the definition of each class in the type."""
 
     def __init__(self) -> None:
         self.definitions: dict[str, str] = {}

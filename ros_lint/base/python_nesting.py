@@ -154,14 +154,14 @@ def may_be_paired(text: str) -> bool:
 
 
 def most_levels(text: str) -> int:
-    """Return an upper bound for the nesting of expressions in a source. It is 0 for a source of at most DEEPEST characters."""
+    """Return an upper bound for the nesting of expressions in a source, 0 for a source that is too short to nest too deeply."""
     return sum(map(text.count, _COUNTED)) if len(text) > DEEPEST else 0
 
 
 def nests_too_deep(statement: str) -> bool:
-    """Return whether the expressions of a statement may nest more deeply than DEEPEST.
+    """Return whether the expressions of a statement may nest more deeply than DEEPEST, the maximum of ros-lint.
 
-    The statement must be plain, as defined in the module.
+    All versions of Python from 3.10 on must parse the statement to the same tree.
     """
     code = re.sub(_JOINED, "", _code(statement))
     symbols = re.sub(_WORDS, lambda word: SYMBOLS[word[0]], code).translate(_UNCOUNTED)
@@ -169,11 +169,11 @@ def nests_too_deep(statement: str) -> bool:
 
 
 def first_too_deep(symbols: Iterable[str]) -> int | None:
-    """Return the index of the first symbol at which expressions may nest more deeply than DEEPEST, None if there is none.
+    """Return the index of the first symbol at which expressions may nest too deeply (more than DEEPEST), None if there is none.
 
-    ``symbols`` are all operators, brackets, commas, colons and line ends of a source, and the values of SYMBOLS for
-    keywords. Operators and brackets count, because each can make the syntax tree deeper. A comma resets the count to the
-    value before its bracket, except in the parameters of a lambda.
+    ``symbols`` are the operators, brackets, commas, colons and line ends of a source, and a symbol for each keyword such
+    as ``not`` (see SYMBOLS). Operators and brackets count, because each can make the syntax tree deeper. A comma resets the
+    count to the value before its bracket, except in the parameters of a lambda.
     """
     total = count = parameters = 0
     outer_levels: list[tuple[int, int]] = []

@@ -184,11 +184,11 @@ class _TemplateParser:
         return result
 
     def _pieces(self, at: int, quote: str, raw: bool, depth: int, level: int, start: int) -> tuple[tuple[Piece, ...], int]:
-        """Return the pieces of an f-string, or of a format specification in it, from the offset ``at`` on, and their end offset.
+        """Return the pieces from the offset ``at`` to the end of an f-string, and the offset of the end.
 
-        ``level`` is 0 for the f-string itself, which ends at ``quote``. Otherwise it is the nesting depth of the format
-        specification, which ends at a closing brace. ``start`` is the offset of the f-string, and ``depth`` the number of
-        f-strings around it.
+        If ``level`` is 0, the end is the closing ``quote``. Otherwise the pieces are those of a format specification at the
+        nesting depth ``level``, and the end is a closing brace. ``start`` is the offset of the f-string, and ``depth`` is
+        the number of f-strings around the f-string.
         """
         text, pieces = self._text, list[Piece]()
         literal = _literal(quote, raw)
@@ -272,10 +272,10 @@ class _TemplateParser:
 
 
 def _literal_end(literal: re.Pattern[str], text: str, at: int, *, in_format: bool) -> int:
-    """Return the offset of the end of the literal text in an f-string. The text starts at ``at`` and matches ``literal``.
+    """Return the end offset of the literal text that starts at the offset ``at`` of an f-string; ``at`` if there is none.
 
-    In a format specification (``in_format``), literal text ends before any brace, because doubled braces are not an
-    escape there.
+    ``literal`` is the pattern of literal text. In a format specification (``in_format``), literal text also ends before
+    doubled braces, because they are no escape there.
     """
     match = literal.match(text, at)
     end = match.end() if match is not None else at

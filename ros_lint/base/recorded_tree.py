@@ -19,7 +19,7 @@ TreeAnswer = list[Entry] | Stamp | str | int
 
 
 class Answers(NamedTuple):
-    """All answers of a file tree during a run.
+    """All queries to the disk during a run of ros-lint, e.g. for the entries of a folder, with the answers.
 
     They are packed into few objects, because a later run mostly only compares them.
     """
@@ -80,9 +80,8 @@ class RecordedTree:
     def is_unchanged(self, answers: Answers) -> bool:
         """Return whether the disk still gives the answers that were recorded in an earlier run.
 
-        Stores the current answers for later queries. A file with a different stamp (time, size and other metadata) counts
-        as unchanged if its mode and size are the same, and its contents if they were read. The other parts of a stamp,
-        such as the time, affect no result.
+        A file counts as unchanged if its mode, size and contents are unchanged; its modification time does not matter. The
+        contents matter only if the earlier run read them. The current answers are stored for later queries.
         """
         others: list[tuple[Query, str, TreeAnswer]] = [
             *(("identity", path, identity) for path, identity in answers.identities),
@@ -117,7 +116,7 @@ class RecordedTree:
         return True
 
     def renewed(self, answers: Answers) -> Answers | None:
-        """Return ``answers``, which the disk still gives, with the current metadata of the files.
+        """Return the answers of an earlier run with the current metadata of the files. The answers must be unchanged.
 
         Return None if the next comparison would not be faster with the current metadata.
         """

@@ -79,14 +79,14 @@ def tokens(text: str) -> list[tuple[int, int]]:
 def _loader(*, fast: bool) -> Any:
     """Return a subclass of PyYAML's safe loader class that limits the size of integers.
 
-    If ``fast`` is True and PyYAML has its loader in C, this is the base class; otherwise the loader in Python.
+    Its base class is the loader in C if ``fast`` is True and PyYAML has the loader in C, otherwise the loader in Python.
     """
     import yaml  # noqa: PLC0415
 
     class LimitedLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader) if fast else yaml.SafeLoader):  # type: ignore[misc]
-        """The loader that limits integers.
+        """A YAML loader that limits the size of integers.
 
-        It is a subclass, because a constructor added to PyYAML's class would affect all its users.
+        It is a subclass, because a constructor added to PyYAML's class would affect all other code that uses PyYAML.
         """
 
     def integer(loader: Any, node: yaml.ScalarNode) -> int:

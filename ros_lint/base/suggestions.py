@@ -29,11 +29,11 @@ _SAME_KIND = {"world": "sdf", "yml": "yaml"}
 
 
 def of_same_kind(path: str, paths: Iterable[str]) -> list[str]:
-    """Return the members of ``paths`` that the misspelled ``path`` can mean by the kind of the file.
+    """Return the members of ``paths`` with the kind of file of the misspelled ``path``, or with no known kind.
 
     Example: robot.srdf cannot mean robot.urdf.xacro. The kind is the last suffix, without ``.xacro`` and without the
-    suffix of the language (``.launch.py``). Only robot descriptions, launch files and parameter files have kinds that
-    exclude each other. A mesh, for example, may be stored in another format.
+    suffix of the language (``.launch.py``). Only robot descriptions, launch files and parameter files have a kind: a mesh,
+    for example, may be stored in another format. If ``path`` has no kind, all members are returned.
     """
     kind = _kind_of_file(path)
     return [other for other in paths if not kind or _kind_of_file(other) in ("", kind)]

@@ -169,7 +169,7 @@ class DiskTree:
         return files.read(target)
 
     def _may_lead_to(self, target: str, folder: str) -> bool:
-        """Return whether this tree follows a link to a file in ``folder`` whose real path is ``target``; see the class."""
+        """Return whether this tree follows a link in ``folder`` to a file with the real path ``target``."""
         inside = self._inside or (self.identity(""),)
         if is_below_any(target, inside):
             return True

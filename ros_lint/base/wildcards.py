@@ -16,8 +16,8 @@ def spaced(pieces: Sequence[str], gap: str, numbers: Iterator[int]) -> str:
     """Return a regular expression that matches ``pieces`` in order, with ``gap`` between them: ``a``, ``b`` -> ``a[^/]*b``.
 
     ``pieces`` and ``gap`` are regular expressions; ``gap`` ends with ``*``. ``numbers`` yields unused numbers for the
-    names of groups. The expression never backtracks to a later match of a piece other than the last, because a later
-    match would leave less text for the following pieces.
+    names of groups. To match in linear time, the expression tries only the first match of each piece before the last one:
+    a later match would leave less text for the following pieces.
     """
     first, *later_pieces = pieces
     if not later_pieces:

@@ -1,4 +1,4 @@
-"""Find the folder to check for a path, and the larger workspace whose other packages are read to check it."""
+"""Find the folder to check for a path, and the workspace around the folder, because the check needs its other packages."""
 
 from __future__ import annotations
 
@@ -45,8 +45,8 @@ def workspace_around(folder: str) -> str:
 
     It is the first of these folders that exists:
 
-    - the folder whose ``src`` contains the package of ``folder``, if both are in one repository or colcon has built
-      there,
+    - the parent folder of a ``src`` folder that contains ``folder``, if colcon has built in the parent folder or if
+      ``folder`` and the parent folder are in one git repository,
     - the git repository that contains ``folder``.
     """
     folders = list(upwards(folder))

@@ -1,7 +1,7 @@
-"""Read the files of git commits. git is called only to read objects, so that no program of the repository is executed.
+"""Read the files of git commits without executing a program that the configuration of the repository names.
 
-The files are written as git stores them, without filters, hooks, attributes and work trees. Missing objects of a partial
-clone are not fetched. The reason is that the configuration of a repository can name programs for all of these.
+Therefore git is called only to read objects. The files are written as git stores them, without filters, hooks, attributes
+and work trees. Missing objects of a partial clone are not fetched.
 """
 
 from __future__ import annotations

@@ -134,7 +134,7 @@ def parse_request(options: Mapping[str, Any], environment: Mapping[str, str], *,
 def _tracked(base: str, environment: Mapping[str, str]) -> Tracked | None:
     """Return the files that git tracks in the repository at ``base`` if pre-commit is running, else None.
 
-    pre-commit checks a commit, which has no other files.
+    pre-commit checks the files of a commit, and untracked files are not part of a commit.
     """
     if environment.get("PRE_COMMIT") != "1" or repository_of(base) != base:
         return None

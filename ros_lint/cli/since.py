@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def only_new(report: Report, request: Request, environment: Mapping[str, str], progress: Progress) -> Report:
-    """Return a report without the findings that the commit from which HEAD and ``--since`` diverged has, too.
+    """Return a report without the findings that an earlier commit has, too: the merge base of HEAD and ``--since``.
 
     The files of this commit are written into a temporary folder and checked with the same settings. Findings are compared
     as with a baseline. Raises UsageError and GitError.
@@ -43,7 +43,10 @@ def only_new(report: Report, request: Request, environment: Mapping[str, str], p
 
 
 def _in_folder(request: Request, folder: str) -> Request:
-    """Return the request for the files of a commit in ``folder``, without cache and without folders that do not exist."""
+    """Return the request for checking a commit whose files are in ``folder``, without a cache of results.
+
+    Requested folders that the commit does not have are left out.
+    """
 
     def existing(paths: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(path for path in paths if os.path.isdir(os.path.join(folder, path)))

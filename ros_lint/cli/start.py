@@ -1,8 +1,8 @@
 """The start of the process, for the command ``ros-lint`` and for ``python -m ros_lint``.
 
 The current folder is usually the workspace, and Python would import a ``json.py`` from it. So the folder is removed
-from the module path before anything but ``os`` and ``sys`` is imported. The imports of Python itself cannot be
-protected: at start-up if ``PYTHONPATH`` has an empty entry, and for ``python -m``.
+from the module path before anything but ``os`` and ``sys`` is imported. Python itself may import modules from the folder
+before this module runs: always for ``python -m``, and at start-up if ``PYTHONPATH`` has an empty entry.
 """
 
 import os

@@ -79,9 +79,9 @@ _OWN_TARGET = re.compile(r"[^:\s]+")
 
 
 def opaque_except_undefined_targets(package: Package, facet: Facet) -> tuple[Opaque, ...]:
-    """Return the places that could not be evaluated and may therefore hide ``facet``, a part of the package.
+    """Return the places in build scripts that could not be evaluated and may affect ``facet``, e.g. the installed files.
 
-    Left out is an install() of an undefined target of this package: it hides nothing, because CMake rejects it.
+    A call of install() for an undefined target of this package is left out, because CMake rejects the call.
     """
     return tuple(opaque for opaque in package.hidden(facet) if not _OWN_TARGET.fullmatch(opaque.undefined))
 

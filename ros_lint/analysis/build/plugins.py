@@ -59,8 +59,8 @@ def plugins(package: Package) -> Plugins | None:
 def _needs_no_description(macro: Registration) -> bool:
     """Return whether a registered class needs no plugin description.
 
-    The result is True for nodelets of ROS 1, which are not built in ROS 2, and for components, which ROS 2 Crystal registered by
-    ``PLUGINLIB_EXPORT_CLASS``, too.
+    The result is True for nodelets, because ROS 2 does not build them, and for components: ROS 2 Crystal registered
+    components, too, by ``PLUGINLIB_EXPORT_CLASS``.
     """
     return macro.base.startswith("nodelet::") or macro.base in ("rclcpp::Node", "rclcpp_lifecycle::LifecycleNode")
 

@@ -55,6 +55,6 @@ def _may_exclude(call: Call) -> bool:
 def _brings_linter(workspace: Workspace, name: str) -> bool:
     """Return whether a test dependency makes CMake run ament_xmllint: ament_cmake_xmllint or a package ``*_lint_common``.
 
-    A ``*_lint_common`` package exports its linters. Other packages that depend on ament_cmake_xmllint at run time do not.
+    A ``*_lint_common`` package counts only if it depends on ament_cmake_xmllint at run time.
     """
     return name == _LINTER or (name.endswith("_lint_common") and _LINTER in (workspace.world.depends(name, "x") or ()))

@@ -20,10 +20,10 @@ def all_declared(package: Package, workspace: Workspace) -> Closure:
 
 
 def declared_closure(package: Package, workspace: Workspace, role: Role, others: Iterable[str] = ()) -> Closure:
-    """Return the dependencies that a package declares for ``role`` (build, run, test ...), with their transitive dependencies.
+    """Return the dependencies that a package declares for any role (build, run, test ...) in ``role``, and the transitive ones.
 
-    One of several roles in ``role`` suffices. The packages ``others`` and the members of the groups that the package depends on
-    are included, with their transitive dependencies.
+    The packages ``others`` and the members of the groups that the package depends on are added, with their transitive
+    dependencies.
     """
     starts = [declared.name for declared in package.declared if role is _ANY or declared.role & role]
     starts += others
@@ -35,10 +35,10 @@ def declared_closure(package: Package, workspace: Workspace, role: Role, others:
 def provided_transitively(
     package: Package, workspace: Workspace, names: Iterable[str], role: Role, *, surely: bool = False
 ) -> bool:
-    """Return whether one of ``names`` is a transitive dependency of a declared dependency that is not in ``names`` itself.
+    """Return whether the package gets one of ``names`` through the declared dependencies that are not in ``names``.
 
-    Only dependencies declared for any role (build, run, test ...) in ``role`` count. A dependency whose own dependencies are
-    unknown counts if it could provide a name, unless ``surely`` is true.
+    Only dependencies declared for a role (build, run, test ...) in ``role`` count. If the dependencies of a package are
+    unknown, it is assumed to provide the names that it could provide; ``surely`` turns this assumption off.
     """
     names = frozenset(names)
     starts = {declared.name for declared in package.declared if declared.role & role and declared.name not in names}

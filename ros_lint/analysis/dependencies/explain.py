@@ -24,9 +24,10 @@ RULES = ("undeclared-dependency", "unused-dependency")
 
 
 def explain(package: Package, workspace: Workspace, name: str, confidences: Mapping[str, Confidence]) -> Iterator[str]:
-    """Yield lines of text: the uses of the dependency ``name``, its tags, and for each of the ``RULES`` why it reports nothing.
+    """Yield lines of text: the uses and tags of the dependency ``name``, and a line for each of the ``RULES``.
 
-    ``confidences`` has the rules that report the dependency, each with the confidence of its finding.
+    Example of a line: "unused-dependency: not reported, because ...". ``confidences`` has the rules that do report the
+    dependency, each with the confidence of its finding.
     """
     uses = [use for use in package.uses if name in use.providers]
     yield from used_in(uses)
@@ -106,9 +107,9 @@ def _unsure_undeclared(package: Package, workspace: Workspace, name: str, uses: 
 
 
 def _of_itself(name: str, uses: list[Use]) -> list[Use]:
-    """Return the uses that refer to the package ``name`` itself and not to another package that ``name`` may provide.
+    """Return the uses that were resolved to the package ``name``. If there are none, return all uses.
 
-    If no use refers to the package itself, return all uses. Optional uses are left out if any use is required.
+    Optional uses are left out if any use is required.
     """
     needed = [use for use in uses if not use.optional] or uses
     return [use for use in needed if use.package == name] or needed

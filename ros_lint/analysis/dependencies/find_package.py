@@ -79,7 +79,10 @@ def finding_others(package: Package, workspace: Workspace, names: Iterable[str])
 
 
 def _found(workspace: Workspace, names: Iterable[str]) -> Callable[[str], bool]:
-    """Return a function: whether ``find_package()`` of the names finds a package or rosdep key, directly or transitively."""
+    """Return a function that returns whether ``find_package()`` of ``names`` finds a given package or rosdep key.
+
+    Packages that are found transitively count, too.
+    """
     all_names = sorted(names)
     direct = frozenset([provider for name in all_names for provider in workspace.world.by_cmake(name).names])
     closure = partial_closure(workspace, all_names)

@@ -44,7 +44,8 @@ class Misplaced(NamedTuple):
 class _Phase(NamedTuple):
     """A situation in which only some dependencies are installed: the build of the package, or its execution.
 
-    ``uses`` and ``vias`` select the uses that matter in this situation, ``tags`` has the roles of the installed dependencies.
+    ``tags`` has the roles of the dependencies that are installed then. A use needs its package then if its role is in
+    ``uses`` and its kind is in ``vias``, such as "include" or "cmake".
     """
 
     purpose: str
@@ -73,7 +74,7 @@ def misplaced(package: Package, workspace: Workspace) -> tuple[Misplaced, ...]:
     - all packages that are needed by a package for tests, because all of its dependencies serve tests,
     - packages needed by tests outside of ``if(BUILD_TESTING)``, because the tests have to be moved into it,
     - parts of launch that only launch files import, because ``ros2 launch`` provides them,
-    - packages that another declared dependency provides once its own wrong tag is corrected, because that tag is reported,
+    - packages that a declared dependency will provide as soon as its own wrong tag, which is also reported, is corrected,
     - packages that a dependency with the right tag may provide: its dependencies are unknown, or it provides the package in
       another distribution and the user chose no distribution.
     """

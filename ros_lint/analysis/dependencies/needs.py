@@ -54,10 +54,10 @@ _TEST = Role.TEST
 
 @cached_by_package
 def needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
-    """Return the needs of a package: the packages and rosdep keys that its required uses need, with these uses.
+    """Return the packages and rosdep keys that a package needs, each with its uses. Optional uses are left out.
 
-    The needs are sorted by the position of their first use. A package of ROS 1 has none, because its dependencies are not
-    analysed.
+    The needs are sorted by the position of their first use. The result is () for a package of ROS 1, because its
+    dependencies are not analysed.
     """
     return _gathered(package, workspace, [use for use in package.uses if not use.optional])
 
@@ -111,10 +111,11 @@ def _needs(
     closure_of: Callable[[tuple[str, ...]], Closure],
     is_runtime_library: Callable[[str], bool],
 ) -> Iterator[Need]:
-    """Yield one or two needs for the ``uses`` of the package ``name``: one for the declared uses, one for the undeclared uses.
+    """Yield the needs for the ``uses`` of a package: one for the uses that a declared name satisfies, one for the other uses.
 
-    Each use has to be satisfied by one of its own providers. Examples: find_package(Eigen3) needs the find module, but a
-    header of Eigen only needs the library. A rosdep key of a runtime library (``is_runtime_library``) satisfies no build use.
+    ``name`` is the name of the package. A declared name satisfies a use only if it is a provider of this use. Examples:
+    find_package(Eigen3) needs the find module, but a header of Eigen only needs the library. A rosdep key of a runtime
+    library (``is_runtime_library``) satisfies no build use.
     """
     if len(uses) > 1:
         uses.sort(key=_rank)

@@ -192,7 +192,10 @@ def is_unresolvable_key(workspace: Workspace, name: str) -> bool:
 
 
 def condition_for(workspace: Workspace, name: str) -> str:
-    """Return the condition for the tag of a name that only some distributions of the run have; "" for any other name."""
+    """Return the condition for the tag of a dependency that some distributions lack, "" if the tag needs no condition.
+
+    The tag needs a condition only if one of the checked distributions has the dependency.
+    """
     only_in = _availability(workspace, name).only_in
     is_in_run = not set(only_in).isdisjoint(workspace.target.distros)
     return _condition(only_in, workspace.world.knowledge.active) if is_in_run else ""

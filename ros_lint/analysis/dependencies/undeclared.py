@@ -1,4 +1,4 @@
-"""The packages that a package needs, but that no declared dependency is or provides."""
+"""The packages that a package needs, but neither declares nor gets transitively through a declared dependency."""
 
 from __future__ import annotations
 

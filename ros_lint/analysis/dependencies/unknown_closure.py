@@ -13,7 +13,8 @@ from ros_lint.workspace.model import Workspace
 def may_provide(unknown: Sequence[str], name: str, workspace: Workspace, *, improbable: bool = False) -> bool:
     """Return whether one of the declared names ``unknown``, about which there are no data, could provide the package ``name``.
 
-    ``improbable`` is true if one of them must provide ``name``. The last of these assumptions is then not made:
+    These assumptions are made. ``improbable`` turns off the last one, so that an improbable provider counts, too:
+
     - Unknown packages do not depend on packages of this workspace, because repositories do not depend on each other in
       a cycle.
     - Unknown packages that are named like packages of interfaces (``*_msgs``) provide only interfaces.

@@ -133,9 +133,10 @@ def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> 
 
 
 def wrong_name_explains(name: str, intended: str = "") -> tuple[Consequence, ...]:
-    """Return the findings that probably disappear once a wrong name is corrected to ``intended``, or removed if it is "".
+    """Return the further findings that a wrong name in package.xml explains: they disappear when the name is corrected.
 
-    Until then no code uses the wrong name, and ``intended`` is used but not declared.
+    The wrong name is reported as unused, and the package ``intended`` as undeclared. If ``intended`` is "", the wrong name
+    has to be removed.
     """
     lacking = ("undeclared-dependency", "launch-outside-closure") if intended else ()
     return (Consequence("unused-dependency", name), *(Consequence(rule, intended) for rule in lacking))

@@ -143,7 +143,7 @@ def dependency_graph(workspace: Workspace) -> Graph:
 
 
 def build(packages: Iterable[Package]) -> Graph:
-    """Return the dependency graph of some packages."""
+    """Return the dependency graph of ``packages``. Dependencies on any other package are left out."""
     places: dict[str, list[Package]] = {}
     members: dict[str, list[str]] = {}
     for package in packages:

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
 
 class PackageSelection(NamedTuple):
-    """The values of the options ``--packages-select``, ``--packages-up-to`` and so on. An empty ``skip`` skips no package.
+    """The values of the options ``--packages-select``, ``--packages-up-to``, ``--packages-skip`` and so on.
 
-    Any other empty option selects all packages.
+    An option without values is ignored.
     """
 
     select: tuple[str, ...] = ()
@@ -26,11 +26,11 @@ class PackageSelection(NamedTuple):
     skip: tuple[str, ...] = ()
 
     def names(self, graph: Graph) -> frozenset[str]:
-        """Return the names of the packages that all options together select.
+        """Return the names of the packages that every option with values selects.
 
         ``up_to`` selects packages with their direct and indirect dependencies, ``above`` packages with their direct and
-        indirect dependents, and ``select_regex`` packages whose name begins with a match. A package must be selected by every
-        option, but by only one of ``select`` and ``select_regex``.
+        indirect dependents, and ``select_regex`` packages whose name begins with a match. ``select`` and ``select_regex``
+        count as one option: each adds packages.
         """
         names = frozenset(graph.names) - frozenset(self.skip)
         if self.select or self.select_regex:

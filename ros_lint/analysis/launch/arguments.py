@@ -41,8 +41,8 @@ class ArgumentUse(NamedTuple):
 def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
     """Return the launch arguments that a launch file declares, and the launch configurations that it reads.
 
-    None if further arguments may be declared or read: by an unreadable file, by a file that the launch file includes, or
-    by a file that includes the launch file.
+    The result is None if further arguments may be declared or read, because a file of the workspace cannot be read, or
+    because the launch file or an included file cannot be fully analysed.
     """
     tree, resolver = include_tree(workspace), include_resolver(workspace)
     own = tree.names(file)

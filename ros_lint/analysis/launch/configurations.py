@@ -49,15 +49,18 @@ def names_of(file: LaunchFile) -> FileConfigurations:
 
 
 def required_configurations(file: LaunchFile, names: frozenset[str]) -> dict[str, Span]:
-    """Return the elements of ``names`` that callers have to set, because the file reads them without a default.
+    """Return the configurations in ``names`` that callers of a launch file have to set, because it reads them without a default.
 
-    The value is the place where the file first reads the configuration.
+    Each comes with the place where the file first reads it without a default.
     """
     return {name: span for (name, has_default), span in read_sites(file, names).items() if not has_default}
 
 
 def read_sites(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool], Span]:
-    """Return the first place where a file reads each of ``names``. The keys are pairs: the name, and True if with a default."""
+    """Return the first places where a launch file reads the configurations in ``names``: with a default, and without.
+
+    The keys are pairs: the name of a configuration, and True if the file reads it with a default.
+    """
     result: dict[tuple[str, bool], Span] = {}
     for action in walk_actions(file.actions):
         for text, span in values_of_action(action):
@@ -88,9 +91,10 @@ class IncludeTree:
         return self._names[file.path]
 
     def fill(self, file: LaunchFile) -> bool:
-        """Return whether ``file``, a file that it includes or a file that includes it may read configurations of any name.
+        """Return whether ``file``, or a launch file above or below it in the tree of includes, may read any configuration.
 
-        A file may do so if it substitutes configurations in a parameter file, because users can replace the parameter file.
+        This is the case for a launch file that substitutes configurations in a parameter file: users can replace the
+        parameter file by one with further configurations.
         """
         if not self._filling:
             return False

@@ -73,7 +73,7 @@ def _is_aside(path: str, subdirectories: Container[str]) -> bool:
 
 
 def is_launch_file(package: Package, path: str) -> bool:
-    """Return whether a file of the package is a ROS 2 launch file. ``path`` is relative to the base folder of the run."""
+    """Return whether a file of the package is a ROS 2 launch file. ``path`` begins with the folder of the package."""
     return any(launch.path == path for launch in package.launch)
 
 
@@ -109,10 +109,10 @@ def references_by_name(
 
 
 def rename_fix(title: str, text: str, places: Sequence[tuple[Span, bool]]) -> Fix | None:
-    """Return the unsafe fix that replaces the text at each place by ``text``.
+    """Return the unsafe fix that replaces a name by ``text`` at several places.
 
-    A place is a span, and True if the span covers exactly the name to replace (``LaunchReference.exact``). The result is
-    None if ``text`` is "" or if a place is not exact.
+    Each of ``places`` is a pair: a span, and True if the span covers exactly the name. The result is None if ``text`` is ""
+    or if a span covers more or less than the name.
     """
     if not text or not all(exact for _, exact in places):
         return None
@@ -179,7 +179,8 @@ def launch_suffix(path: str) -> str:
 def is_excluded_from_install(package: Package, path: str) -> bool:
     """Return whether the build script deliberately does not install a launch file.
 
-    The script then has a command that installs other launch files of the folder and suffix. ``path`` is relative to the package.
+    The result is True if one command installs several files, among them a launch file with the folder and the suffix of
+    ``path``. ``path`` itself, which is relative to the package, must not be installed.
     """
     folder, suffix, provides = path.rpartition("/")[0], launch_suffix(path), package.built.products.installs
     if not suffix:
@@ -199,7 +200,7 @@ def nodes_started(workspace: Workspace) -> Mapping[str, Mapping[str, Sequence[La
 
 @cached_by_workspace
 def files_looked_up(workspace: Workspace) -> Mapping[str, Sequence[LookUp]]:
-    """Return the files that launch files and models look up in share directories, by package."""
+    """Return the files that launch files and source files look up in share directories, by the package of the directory."""
     return looked_up(workspace.packages)
 
 
@@ -222,7 +223,7 @@ def node_references(packages: Iterable[Package], *, excluded: bool = False) -> d
 
 
 def looked_up(packages: Iterable[Package]) -> dict[str, list[LookUp]]:
-    """Return the files that launch files and models look up in share directories, by package."""
+    """Return the files that launch files and source files look up in share directories, by the package of the directory."""
     result: dict[str, list[LookUp]] = {}
     for package in packages:
         for launch in package_launch_files(package):

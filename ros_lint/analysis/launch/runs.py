@@ -30,7 +30,7 @@ _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class PassedFile(NamedTuple):
-    """A launch or parameter file to which an included launch file refers when it gets the arguments of the include."""
+    """A launch file or parameter file to which an included launch file refers, given the arguments of the include."""
 
     package: str
     """Package whose share folder contains the file."""

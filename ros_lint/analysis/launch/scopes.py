@@ -13,7 +13,7 @@ from ros_lint.workspace.model import Workspace
 
 
 class PlacedInclude(NamedTuple):
-    """An include, and the scope in which the configurations that it sets stay set."""
+    """An include in a launch file, and its scope. Configurations that the include sets stay set up to the end of the scope."""
 
     action: LaunchAction
     """The include."""
@@ -33,7 +33,10 @@ def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
 def _includes(
     actions: Sequence[LaunchAction], scope: tuple[LaunchAction, ...], position: int, *, leaves: bool
 ) -> Iterator[PlacedInclude]:
-    """Yield the includes in ``actions``, which are in ``scope`` from index ``position`` on."""
+    """Yield the includes in ``actions``, also in groups. ``actions`` begin at the index ``position`` of ``scope``.
+
+    ``leaves`` is True if a configuration that is set in ``scope`` is still set at the end of the launch file.
+    """
     for action in actions:
         after = position + 1 + (sum(1 for _ in walk_actions(action.children)) if action.children else 0)
         if action.kind == "include":

@@ -33,7 +33,7 @@ def run(options: Mapping[str, Any]) -> int:
 
 
 def _selector(paths: Sequence[str]) -> Callable[[CachedWorkspace], bool]:
-    """Return a function that returns whether a cached workspace is in one of the paths; without paths, it is always True."""
+    """Return a function that returns whether a cached workspace is in one of the paths. Without paths, all workspaces are."""
     real_paths = [os.path.realpath(path) for path in paths]
     return lambda cached: not paths or (cached.workspace != "" and is_below_any(cached.workspace, real_paths))
 

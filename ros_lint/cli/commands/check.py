@@ -105,7 +105,7 @@ def _write_baseline(report: Report, request: Request) -> int:
 
 
 def _folders(request: Request, path: str) -> list[str]:
-    """Return the requested paths, relative to the folder of the file at ``path``."""
+    """Return the requested paths, relative to the folder that contains the baseline file at ``path``."""
     folder = os.path.dirname(os.path.realpath(path))
     return [os.path.relpath(os.path.join(request.base, root), folder).replace(os.sep, "/") for root in request.roots]
 

@@ -120,8 +120,8 @@ def _write_scan(distro: str, to: str, idx: str, prov: str) -> None:
 def _replace(folder: str, name: str, text: str, *, shipped: bool = True) -> Refreshed:
     """Write a data file atomically, so that no process reads an incomplete file. Return the numbers of changed lines.
 
-    If ``shipped`` is True, a file that does not exist yet is compared with the shipped data file, because it overrides
-    that file.
+    Lines are compared with the earlier file at the path. If there is none and ``shipped`` is True, they are compared with
+    the shipped data file of this name, because the new file replaces the shipped data.
     """
     path = os.path.join(folder, name)
     try:

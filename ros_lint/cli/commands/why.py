@@ -139,9 +139,9 @@ class _DependencyModel:
         return [(places[span], span) for span in sorted(places)]
 
     def _counts(self, name: str, reason: Reason) -> bool:
-        """Return whether a dependency of the package ``name`` counts.
+        """Return whether a dependency of the package ``name`` can be part of a path.
 
-        Test dependencies count only for the first package of a path.
+        A test dependency can only be the first edge of a path.
         """
         return name == self._start or reason.categories != ("test",)
 

@@ -1,6 +1,6 @@
 """The command calls in a CMake file as they are written, each with the names of the blocks around it.
 
-Rules about the order of commands and fixes use these calls. The effects of the commands are computed by
+These calls serve fixes, and rules about the order of commands. The effects of the commands are computed by
 :mod:`ros_lint.collectors.cmake.evaluate`.
 """
 

@@ -231,7 +231,7 @@ def _programs(workspace: Workspace, text: Text, place: Place) -> set[str]:
 
 
 def links(workspace: Workspace, path: str) -> Iterator[tuple[Span, Span]]:
-    """Yield pairs of a place in a launch file and the place of the file of the workspace that the launch file refers to there."""
+    """Yield pairs for the links in a launch file: the place of a file's name, and the start of the file in the workspace."""
     for target in targets(workspace, path):
         if target.kind in ("include", "file") and target.name:
             for package in workspace.called(target.package):

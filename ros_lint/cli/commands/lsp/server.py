@@ -343,7 +343,7 @@ def _add_actions(server: RosLintServer) -> None:
 
 
 def _with_uri(action: types.CodeAction, uri: str) -> types.CodeAction:
-    """Return a code action with the URI of the request's file in its data, if it has data."""
+    """Return a code action with ``uri``, the URI of the file, added to its data. An action without data is unchanged."""
     if action.data is not None:
         action.data = {**action.data, "uri": uri}
     return action

@@ -46,7 +46,7 @@ _GENERATES: Final = "rosidl_generate_interfaces"
 
 
 def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
-    """Run a command that neither CMake nor the package defines; return how it may end (Exit; None: normally).
+    """Run a command that neither CMake nor the package defines. Return the ways in which it may end, None for a normal end.
 
     A macro of a released package runs in its reduced form. The effects of any other command are recorded as unknown.
     """
@@ -395,7 +395,7 @@ RUNNERS: Final = frozenset({"add_test", "ros_lint_runs"})
 
 
 def run_handler(run: Run, name: str, args: list[str]) -> None:
-    """Run the CMake command ``name``. The result of its handler (how it may end) is ignored."""
+    """Run the CMake command ``name``, and assume that it ends normally."""
     HANDLERS[name](run, args)
 
 

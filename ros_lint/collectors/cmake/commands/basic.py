@@ -261,7 +261,7 @@ _NOT_SINGLE = re.compile(f"[{HOLE}{MAYBE};\\\\[\\]]")
 def _language(run: Run, args: list[str]) -> int | None:
     """Run ``cmake_language(CALL command args...)`` or ``cmake_language(EVAL CODE text...)``.
 
-    Return how the code may end (Exit; None: normally).
+    Return the ways in which the code may end, e.g. by return(); None for a normal end.
     """
     mode = args[0] if args else ""
     if mode == "CALL" and len(args) > 1 and is_known(args[1]):

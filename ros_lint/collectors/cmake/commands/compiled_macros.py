@@ -55,7 +55,7 @@ class ReleasedMacros(NamedTuple):
 
 @cache
 def released(name: str) -> ReleasedMacros | None:
-    """Return the macro or function of a released package with a name in lower case, None if there is none."""
+    """Return the CMake macro or function ``name`` (in lower case) of a released package, None if no package has it."""
     macro = macros().get(name)
     if macro is None:
         return None
@@ -91,7 +91,7 @@ def _split_keywords(body: Body) -> tuple[_Keywords | None, Body]:
 
 
 def _steps(body: Body, prefix: str, conditions: _Conditions) -> Iterator[_Step | None]:
-    """Yield the commands of a macro with the conditions under which they run; None for code that cannot be compiled."""
+    """Yield each command of a macro with its conditions, the enclosing if(). Yield None for code that cannot be compiled."""
     for node in body:
         if isinstance(node, Command):
             if node.name == "set" and prefix and node.args[0][0].startswith(f"{prefix}_"):
@@ -118,7 +118,7 @@ def _argument(text: str, kind: int) -> str | _Reference:
 
 
 def run_released(run: Run, macro: ReleasedMacros, args: list[str]) -> Exit:
-    """Run a macro or function of a released package with evaluated arguments; return how it may end (Exit)."""
+    """Run a macro or function of a released package with evaluated arguments. Return the ways in which it may end."""
     text = "".join(args)
     if macro.direct is not None and ";" not in text:
         primitive, words = macro.direct
