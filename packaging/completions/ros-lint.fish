@@ -101,7 +101,7 @@ complete -c ros-lint -n '__fish_seen_subcommand_from explain-package' -l cache -
 complete -c ros-lint -n '__fish_seen_subcommand_from explain-package' -l exclude -d 'patterns of files or folders not to read, such as build_*'
 complete -c ros-lint -n '__fish_seen_subcommand_from explain-package' -l progress -l no-progress -d 'show progress on a terminal'
 complete -c ros-lint -n '__fish_seen_subcommand_from launch' -s h -l help -d 'show this help message and exit'
-complete -c ros-lint -n '__fish_seen_subcommand_from launch' -l format -x -a 'tree json mermaid' -d 'output format'
+complete -c ros-lint -n '__fish_seen_subcommand_from launch' -l format -x -a 'tree json mermaid html' -d 'output format'
 complete -c ros-lint -n '__fish_seen_subcommand_from launch' -l show-args -d 'print the launch arguments instead, with their descriptions'
 complete -c ros-lint -n '__fish_seen_subcommand_from launch' -l depth -d 'leave out what is below more than N includes'
 complete -c ros-lint -n '__fish_seen_subcommand_from launch' -l node -d 'show only nodes and components with this name, executable or class'

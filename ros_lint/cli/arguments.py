@@ -161,7 +161,7 @@ def _add_launch(parser: argparse.ArgumentParser) -> None:
     )
     text = "a launch file; a package and the name of a launch file that it installs; or a package, to list its launch files"
     parser.add_argument("words", nargs="+", metavar="FILE", help=text)
-    parser.add_argument("--format", choices=("tree", "json", "mermaid"), default="tree", help="output format")
+    parser.add_argument("--format", choices=("tree", "json", "mermaid", "html"), default="tree", help="output format")
     parser.add_argument("--show-args", action="store_true", help="print the launch arguments instead, with their descriptions")
     parser.add_argument("--depth", type=_number, metavar="N", help="leave out what is below more than N includes")
     parser.add_argument("--node", metavar="NAME", help="show only nodes and components with this name, executable or class")

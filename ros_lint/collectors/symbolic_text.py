@@ -7,7 +7,9 @@ joined, split and formatted like other texts. Later, known values can replace th
 - ``UNKNOWN`` for a text of which nothing is known;
 - ``OWN_FOLDER`` for the folder of the launch file;
 - an absolute path that no file system has, for the install prefix of a package;
-- marks around the name of a launch configuration, a Python expression or a command.
+- marks around the name of a launch configuration, a Python expression or a command;
+- marks around the name of an open argument, and around an expression with open arguments. The value of an open argument is
+  chosen after the evaluation, as in the page of ``ros-lint launch --format html``.
 """
 
 from __future__ import annotations
@@ -31,6 +33,8 @@ _COMMAND = ("\ue014", "\ue015")
 _XACRO_COMMAND = f"{_COMMAND[0]}xacro"
 _DEFAULT = "\ue016"
 _PRESENT = "\ue017"
+_OPEN = ("\ue018", "\ue019")
+_OPEN_EXPRESSION = ("\ue01a", "\ue01b")
 
 MOST = 24
 """The maximum number of possible values of a text."""
@@ -45,8 +49,10 @@ Real texts need up to 34.
 LONGEST = 20_000
 """The maximum length of a text in characters."""
 
-_ANY_MARK = re.compile("[\ue000-\ue017]")
-_UNSETTLED = re.compile("[\ue000\ue003-\ue017]")
+_ANY_MARK = re.compile("[\ue000-\ue01b]")
+_UNSETTLED = re.compile("[\ue000\ue003-\ue01b]")
+_OPEN_ARGUMENT = re.compile("\ue018([^\ue018\ue019]*)\ue019")
+_INNER_OPEN_EXPRESSION = re.compile("\ue01a([^\ue01a\ue01b]*)\ue01b")
 # A path ends where a command line or a list of paths continues; an unknown piece belongs to it.
 _PREFIX = re.compile(rf"/{_ROOT}([^/\s]*)((?:/[^/\s'\":;,\ue012-\ue015]*)*)")
 _INNERMOST = re.compile("\ue010([^\ue010\ue011]*)\ue011")
@@ -200,6 +206,9 @@ def is_node_renaming(word: str) -> bool:
 
 def readable(text: str) -> str:
     """Return a text for messages: substitutions as in XML launch files, and ? for unknown parts."""
+    if _OPEN[0] in text or _OPEN_EXPRESSION[0] in text:
+        text = _OPEN_ARGUMENT.sub(lambda match: configuration(match[1]), text)
+        text = text.replace(_OPEN_EXPRESSION[0], _EXPRESSION[0]).replace(_OPEN_EXPRESSION[1], _EXPRESSION[1])
     text = _with_logic(text) if f"{_EXPRESSION[0]}_" in text else text
     text = _ENDS.sub(lambda match: _SHOWN.get(match[0], ")"), text.replace(f"{OWN_FOLDER}/", "$(dirname)/"))
     text = text.replace(OWN_FOLDER, "$(dirname)").replace(_PRESENT, "").replace(_DEFAULT, " ")
@@ -433,9 +442,41 @@ class _Filling:
         return tuple([inner for value in values for inner in self.of(value, busy)])
 
 
+def open_argument(name: str) -> str:
+    """Return a text in marks that represents the value of a launch argument, which is chosen after the evaluation."""
+    return f"{_OPEN[0]}{name}{_OPEN[1]}"
+
+
+def open_arguments(text: str) -> tuple[str, ...]:
+    """Return the names of the open arguments in a text, each once, in order."""
+    return tuple(dict.fromkeys(_OPEN_ARGUMENT.findall(text)))
+
+
+def with_open_arguments(text: str, values: Mapping[str, str], evaluate: Callable[[str], str]) -> str:
+    """Return a text in which the open arguments are replaced by ``values``, and expressions with them are evaluated."""
+    text = _OPEN_ARGUMENT.sub(lambda match: values.get(match[1], UNKNOWN), text)
+    while match := _INNER_OPEN_EXPRESSION.search(text):
+        value = evaluate(match[1]) if is_settled(match[1]) else UNKNOWN
+        text = text[: match.start()] + value + text[match.end() :]
+    return text
+
+
+def has_open_expression(text: str) -> bool:
+    """Return whether a text contains an expression with open arguments."""
+    return _OPEN_EXPRESSION[0] in text
+
+
+def _kept_open(expression: str) -> str:
+    """Return an expression with open arguments in marks, UNKNOWN if other parts of it are unknown."""
+    known = _OPEN_ARGUMENT.sub("", expression)
+    is_open = known != expression or _OPEN_EXPRESSION[0] in expression
+    is_known = is_settled(known.replace(_OPEN_EXPRESSION[0], "").replace(_OPEN_EXPRESSION[1], ""))
+    return f"{_OPEN_EXPRESSION[0]}{expression}{_OPEN_EXPRESSION[1]}" if is_open and is_known else UNKNOWN
+
+
 def _evaluate_expressions(text: str, evaluate: Callable[[str], str]) -> str:
     while has_expression(text) and (match := _INNER_EXPRESSION.search(text)):
-        value = evaluate(match[1]) if is_settled(match[1]) else UNKNOWN
+        value = evaluate(match[1]) if is_settled(match[1]) else _kept_open(match[1])
         text = text[: match.start()] + value + text[match.end() :]
     # A configuration with an absolute path replaces the path that it was joined to.
     return _TWICE_ROOTED.sub("", text) if "//" in text else text

@@ -86,6 +86,8 @@ class Argument(NamedTuple):
     """The description of the argument; "" if there is none or if it is computed."""
     required: bool = False
     """True if the argument has no default value."""
+    computed: bool = False
+    """True if the value is a default that depends on other values, such as those of other arguments."""
 
 
 class Missing(NamedTuple):
@@ -286,7 +288,17 @@ class _Run:
             texts = scope.values[name]
             required = action.value is None
             self.arguments.append(
-                Argument(name, texts, action.span, self._depth, is_given, action.choices, action.description, required)
+                Argument(
+                    name,
+                    texts,
+                    action.span,
+                    self._depth,
+                    is_given,
+                    action.choices,
+                    action.description,
+                    required,
+                    computed=not (is_given or required or all(map(is_settled, action.value.texts if action.value else ()))),
+                )
             )
             if scope.certain and len(texts) == 1 and is_settled(texts[0]) and self._is_refused(texts[0], action):
                 self.refused.append(Refused(name, texts[0], action.choices, action.span))

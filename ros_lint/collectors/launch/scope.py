@@ -6,7 +6,16 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.launch.expressions import evaluate, means_true
-from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, configurations, fill, is_settled, named_in, package_of_presence
+from ros_lint.collectors.symbolic_text import (
+    OWN_FOLDER,
+    UNKNOWN,
+    configurations,
+    fill,
+    is_settled,
+    named_in,
+    open_arguments,
+    package_of_presence,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -127,14 +136,19 @@ class Filling:
         return truth is not False
 
     def truth(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:
-        """Return whether all conditions hold in a scope (None if unknown), and the conditions whose truth is unknown."""
+        """Return whether all conditions hold in a scope (None if unknown), and the conditions whose truth is unknown.
+
+        In conditions with open arguments, the other launch configurations are replaced by their values.
+        """
         unknown: list[LaunchCondition] = []
         for condition in conditions:
             truth = self._holds(condition, scope)
             if truth is False:
                 return False, ()
             if truth is None:
-                unknown.append(condition)
+                filled = self._filled(condition.texts, scope)
+                is_open = any(map(open_arguments, filled))
+                unknown.append(condition._replace(texts=filled) if is_open else condition)
         return (None if unknown else True), tuple(unknown)
 
     def _holds(self, condition: LaunchCondition, scope: LaunchScope) -> bool | None:

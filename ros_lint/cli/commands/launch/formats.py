@@ -20,8 +20,9 @@ Texts are lists of alternatives, in the syntax of XML launch files, with ``?`` f
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
+from ros_lint.cli.commands.launch.expanded import condition_text, full_names, shown, why_not_followed
 from ros_lint.cli.commands.output import document, label, where
 from ros_lint.collectors.symbolic_text import UNKNOWN, readable
 
@@ -29,77 +30,33 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from ros_lint.base.text import Span
-    from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
+    from ros_lint.cli.commands.launch.expanded import ExpandedFile
     from ros_lint.cli.commands.launch.marks import Marks
     from ros_lint.collectors.launch.expand import Argument, Expansion, Started
-    from ros_lint.facts.launch import LaunchCondition, LaunchFile
-    from ros_lint.workspace.target import TargetDistro
 
 _MOST_UNKNOWN = 20
-
-
-class ExpandedFile(NamedTuple):
-    """An evaluated launch file, with the data that the output formats need."""
-
-    file: LaunchFile
-    expansion: Expansion
-    lookup: LaunchFileLookup
-    marks: Marks
-    target: TargetDistro
 
 
 # --- words ---------------------------------------------------------------------------------------------------------
 
 
-def _text(texts: Iterable[str]) -> str:
-    return " | ".join(readable(text) for text in texts)
-
-
 def _value(texts: Iterable[str]) -> str:
-    return _text(texts) or "''"
-
-
-def _full_name(started: Started) -> str:
-    """Return the name of a node with its namespace, "" if it is unknown. "..." replaces a name that the node's program sets."""
-    spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
-    if not started.name:
-        return readable(" | ".join(dict.fromkeys(f"{space}/..." for space in spaces if space)))
-    return _text(dict.fromkeys(f"{space}/{name or '...'}" for space in spaces for name in started.name))
-
-
-def _condition(condition: LaunchCondition) -> str:
-    """Return a condition as text, such as "if $(var use_sim_time)"; "" if the text of the condition is unknown."""
-    if all(text.rstrip("0123456789") == UNKNOWN for text in condition.texts):
-        return ""
-    text = _text(condition.texts)
-    if condition.equals is None:
-        return f"{'if' if condition.wanted else 'unless'} {text}"
-    return f"if {text} {'==' if condition.wanted else '!='} {condition.equals or repr('')}"
+    return shown(texts) or "''"
 
 
 def _when(started: Started) -> list[str]:
-    return [text for condition in dict.fromkeys(started.when) if (text := _condition(condition))]
-
-
-def _why_not_followed(started: Started, lookup: LaunchFileLookup) -> str:
-    if len(started.target) != 1 or UNKNOWN in started.target[0]:
-        return _UNKNOWN_PATH
-    absent = lookup.absent(started.target[0])
-    return absent.reason if absent is not None else _UNKNOWN_PATH
-
-
-_UNKNOWN_PATH = "the path of the file is unknown"
+    return [text for condition in dict.fromkeys(started.when) if (text := condition_text(condition))]
 
 
 def _head(started: Started) -> str:
-    target = _text(started.target) or "?"
+    target = shown(started.target) or "?"
     if started.kind == "process":
         return f"process {target}{' (later)' if started.later else ''}"
     if started.kind == "include":
         return f"include {target}"
-    name = _full_name(started)
+    name = shown(full_names(started))
     later = " (later)" if started.later else ""
-    package = f"{_text(started.package)} " if started.package else ""
+    package = f"{shown(started.package)} " if started.package else ""
     return f"{started.kind} {package}{target}{f' as {name}' if name else ''}{later}"
 
 
@@ -163,23 +120,23 @@ def _details(started: Started, expanded: ExpandedFile) -> Iterator[str]:
     if not started.certain:
         yield " and ".join(_when(started)) or "conditional: the condition is unknown"
     if started.container:
-        yield f"in container {_text(name if name.startswith('/') else f'/{name}' for name in started.container)}"
+        yield f"in container {shown(name if name.startswith('/') else f'/{name}' for name in started.container)}"
     if started.words:
         yield f"arguments {' '.join(map(_value, started.words))}"
     for name, texts in started.parameters:
         if name == UNKNOWN:
             continue
-        yield f"parameter {readable(name)} = {_value(texts)}" if name else f"parameters {_text(texts)}"
+        yield f"parameter {readable(name)} = {_value(texts)}" if name else f"parameters {shown(texts)}"
     if any(name == UNKNOWN for name, _ in started.parameters):
         yield "unknown parameters"
     for before, after in started.remappings:
-        yield "unknown remappings" if before == after == (UNKNOWN,) else f"remap {_text(before)} to {_text(after)}"
+        yield "unknown remappings" if before == after == (UNKNOWN,) else f"remap {shown(before)} to {shown(after)}"
     for name, texts in started.environment:
         yield f"environment {readable(name)} = {_value(texts)}"
     for name, texts in started.arguments:
         yield f"{'argument ' if started.kind == 'include' else ''}{readable(name)} = {_value(texts)}"
     if started.kind == "include" and not started.file:
-        yield f"not followed: {_why_not_followed(started, expanded.lookup)}"
+        yield f"not followed: {why_not_followed(started, expanded.lookup)}"
     yield from (f"? {reason}" for reason in started.unknown)
 
 
@@ -237,7 +194,7 @@ def _nested(started: Sequence[Started], depth: int, expanded: ExpandedFile) -> l
         if entry.kind == "include":
             item["follows"] = entry.file or None
             if not entry.file:
-                item["unknown"].append(_why_not_followed(entry, expanded.lookup))
+                item["unknown"].append(why_not_followed(entry, expanded.lookup))
             item["starts"] = _nested(started[at + 1 : end], depth + 1, expanded)
         items.append(item)
         at = end
@@ -300,10 +257,10 @@ _NODE_SHAPES = {"node": ("(", ")"), "component": ("([", "])"), "process": ("{{",
 
 
 def _label(started: Started) -> str:
-    target = _text(started.target) or "?"
+    target = shown(started.target) or "?"
     if started.kind == "include":
         return label(target.rpartition("/")[2])
-    lines = [f"{_text(started.package)} {target}".strip(), _full_name(started)]
+    lines = [f"{shown(started.package)} {target}".strip(), shown(full_names(started))]
     return "<br/>".join(label(line) for line in lines if line)
 
 

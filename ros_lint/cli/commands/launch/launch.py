@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.cli.commands.launch import formats
+from ros_lint.cli.commands.launch.expanded import ExpandedFile
 from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
 from ros_lint.cli.commands.launch.marks import Marks, marks_of
 from ros_lint.cli.commands.query import CommandOutput, current_workspace, enclosing_workspace, run_query
@@ -47,7 +48,7 @@ class LaunchOptions(NamedTuple):
     """The options of the command that decide what is printed."""
 
     form: str = "tree"
-    """The output format, a key of ``formats.FORMATS``."""
+    """The output format: a key of ``formats.FORMATS``, or "html"."""
     show_args: bool = False
     """True to print the launch arguments only."""
     depth: int | None = None
@@ -124,10 +125,28 @@ def answer(
     marks = marks_of(workspace, (file, *lookup.followed))
     problems = list(dict.fromkeys(_problems(file, lookup, expansion, marks)))
     err = "".join(f"ros-lint: {line}\n" for line in (*warnings, *problems))
+    content = ExpandedFile(file, expansion, lookup, marks, workspace.target)
+    return _output(content, place, request.arguments, options), err, 1 if problems else 0
+
+
+def _output(content: ExpandedFile, place: str, arguments: Mapping[str, str], options: LaunchOptions) -> str:
+    """Return the output. ``place`` is the path of the launch file for look-ups, and ``arguments`` are the given ones."""
+    if options.show_args:
+        return formats.show_args(content)
+    if options.form != "html":
+        started = _shown(content.expansion.started, options)
+        return formats.FORMATS[options.form](content._replace(expansion=content.expansion._replace(started=started)))
+    from ros_lint.cli.commands.launch import page  # noqa: PLC0415
+
+    changeable = page.controls(content.expansion)
+    while True:
+        passed = {**arguments, **page.open_values(changeable)}
+        expansion = expand(content.file._replace(path=place), passed, content.lookup.included, content.target.distro)
+        if not (fixed := page.names_in_paths(expansion)):
+            break
+        changeable = tuple([control for control in changeable if control.name not in fixed])
     shown = expansion._replace(started=_shown(expansion.started, options))
-    content = formats.ExpandedFile(file, shown, lookup, marks, workspace.target)
-    form = formats.show_args if options.show_args else formats.FORMATS[options.form]
-    return form(content), err, 1 if problems else 0
+    return page.render(content._replace(expansion=shown), changeable)
 
 
 def _shown(started: Sequence[Started], options: LaunchOptions) -> tuple[Started, ...]:

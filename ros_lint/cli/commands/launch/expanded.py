@@ -1,0 +1,62 @@
+"""An evaluated launch file, and the words that describe its actions in all output formats."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple
+
+from ros_lint.collectors.symbolic_text import UNKNOWN, readable
+
+if TYPE_CHECKING:
+    from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
+    from ros_lint.cli.commands.launch.marks import Marks
+    from ros_lint.collectors.launch.expand import Expansion, Started
+    from ros_lint.facts.launch import LaunchCondition, LaunchFile
+    from ros_lint.workspace.target import TargetDistro
+
+
+class ExpandedFile(NamedTuple):
+    """An evaluated launch file, with the data that the output formats need."""
+
+    file: LaunchFile
+    expansion: Expansion
+    lookup: LaunchFileLookup
+    marks: Marks
+    target: TargetDistro
+
+
+def shown(texts: Iterable[str]) -> str:
+    """Return alternatives for people: ``a | b``."""
+    return " | ".join(readable(text) for text in texts)
+
+
+def full_names(started: Started) -> tuple[str, ...]:
+    """Return the possible names of a node with its namespace, () if they are unknown.
+
+    "..." replaces a name that the program of the node sets.
+    """
+    spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
+    if not started.name:
+        return tuple(dict.fromkeys([f"{space}/..." for space in spaces if space]))
+    return tuple(dict.fromkeys([f"{space}/{name or '...'}" for space in spaces for name in started.name]))
+
+
+def condition_text(condition: LaunchCondition) -> str:
+    """Return a condition as text, such as "if $(var use_sim_time)"; "" if the text of the condition is unknown."""
+    if all(text.rstrip("0123456789") == UNKNOWN for text in condition.texts):
+        return ""
+    text = shown(condition.texts)
+    if condition.equals is None:
+        return f"{'if' if condition.wanted else 'unless'} {text}"
+    return f"if {text} {'==' if condition.wanted else '!='} {condition.equals or repr('')}"
+
+
+def why_not_followed(started: Started, lookup: LaunchFileLookup) -> str:
+    """Return the reason why the file of an include was not read."""
+    if len(started.target) != 1 or UNKNOWN in started.target[0]:
+        return _UNKNOWN_PATH
+    absent = lookup.absent(started.target[0])
+    return absent.reason if absent is not None else _UNKNOWN_PATH
+
+
+_UNKNOWN_PATH = "the path of the file is unknown"
