@@ -258,9 +258,9 @@ def _mentions(run: Run, used: Mapping[str, bool]) -> tuple[Mention, ...]:
 
 
 def _used_packages(run: Run) -> dict[str, bool]:
-    """Return the packages whose targets, variables or macros the scripts use; the value is True if only tests use them.
+    """Return the packages whose targets, variables or macros the scripts use, each with True if only tests use it.
 
-    The keys are package names in lower case, without ``_`` and ``-`` (see :func:`folded`).
+    The package names are in lower case, without ``_`` and ``-`` (see :func:`folded`).
     """
     used: dict[str, bool] = {}
     for mention in run.results.mentions:

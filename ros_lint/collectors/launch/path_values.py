@@ -23,7 +23,7 @@ def _display_file(text: str) -> str:
 
 
 def values_of(action: LaunchAction) -> Iterable[tuple[LaunchValue, FilePart | None]]:
-    """Return the values of an action that can contain a path, except the target of the action.
+    """Return the values of an action that can contain a path, except ``action.target`` (such as the executable of a node).
 
     Each value is paired with a function that extracts a file path from a text of the value: ``-d a.rviz`` -> ``a.rviz``. It is
     the path of a file that the started program reads. The function is None if the program reads no file in the value.

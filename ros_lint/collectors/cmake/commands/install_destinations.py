@@ -18,7 +18,10 @@ _TYPES: Final = {
 
 
 def facet_of(run: Run, destination: str | None) -> Facet:
-    """Return the kind of facts to which files at a destination belong, such as SHARE; ANYWHERE if it is unknown."""
+    """Return the kind of facts to which the files at a destination belong, such as SHARE.
+
+    The result for an unknown destination (None) is ANYWHERE.
+    """
     if not destination or destination == ".":
         return ANYWHERE
     if destination == "lib":
@@ -33,7 +36,7 @@ def facet_of(run: Run, destination: str | None) -> Facet:
 
 
 def hide(run: Run, destination: str | None, reason: str) -> None:
-    """Record that the files in a destination of install() are incompletely known. None means an unknown destination."""
+    """Record that install() may install further, unknown files to a destination. None means an unknown destination."""
     run.hide(facet_of(run, destination), reason, below=destination or "")
 
 

@@ -140,7 +140,7 @@ def _install_configured(run: Run, value: str, destination: str, rule: _Rule) -> 
 def unlisted(run: Run, source: str, facet: Facet, span: Span) -> list[str]:
     """Return the files below ``source`` that install(DIRECTORY) installs although they do not belong to the package.
 
-    They are in nested packages, or in folders with a COLCON_IGNORE.
+    These files are in nested packages, or in folders with a COLCON_IGNORE.
     """
     unlisted_files: list[str] = []
     for folder in run.paths.sources.unlisted_folders:

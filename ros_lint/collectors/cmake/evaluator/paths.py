@@ -130,7 +130,10 @@ class Paths:
         return self.sources.outside.kind(self.tree_path(path)) == "file" if is_outside(path) else path in self.files
 
     def is_unlisted(self, path: str) -> bool:
-        """Return whether a path is in a nested package or in a folder with a COLCON_IGNORE. Their files are not listed."""
+        """Return whether a path is in a nested package or in a folder with a COLCON_IGNORE.
+
+        Files there do not belong to the package, so its list of files does not have them.
+        """
         return any(path == folder or path.startswith(f"{folder}/") for folder in self.sources.unlisted_folders)
 
     def files_below(self, path: str) -> Sequence[str]:

@@ -131,7 +131,7 @@ class Run(State):
         return with_unpaired_holes(value)
 
     def implicit_value(self, name: str) -> str | None:
-        """Return the value of a variable that no script has set: a built-in value, or HOLE if the variable may have any value.
+        """Return the value of a variable that no script has set: a built-in value, or HOLE, which means any text.
 
         The result is None if the variable is certainly not set.
         """
@@ -338,7 +338,7 @@ class Run(State):
         return self._indexed[1].get(text, ())
 
     def note_literals(self, first: int) -> None:
-        """Record the places of list elements: the arguments of the current command from index ``first``."""
+        """Record the places of the arguments of the current command from index ``first`` on, which are list elements."""
         frame = self.frames[-1]
         if frame.own and frame.command is not None:
             for argument in frame.command.args[first:]:

@@ -110,7 +110,7 @@ def constant(text: str) -> bool | None:
 
 
 def number_of(text: str) -> float:
-    """Return the number at the start of a text: ``0x10`` -> 16.0. The text must match NUMBER."""
+    """Return the value of a number: ``0x10`` -> 16.0. The text must be a number that the pattern ``NUMBER`` matches."""
     text = text.strip()
     if "x" not in text.lower():
         return float(text)

@@ -224,9 +224,9 @@ class _Interpretation:
             self._add_escaped(all_objects=True)
 
     def _add_escaped(self, all_objects: bool) -> None:
-        """Add the actions of the launch objects that code outside of the interpretation may launch.
+        """Add the actions of the objects of launch classes that were passed to unknown code, because this may launch them.
 
-        A launch object is an object of a launch class. ``all_objects`` adds the actions of all launch objects.
+        ``all_objects`` adds the actions of all objects of launch classes that are not launched otherwise.
         """
         for launch_object in self._machine.made:
             if not launch_object.seen and (launch_object.escaped or all_objects) and launch_object.name in LAUNCHED:
