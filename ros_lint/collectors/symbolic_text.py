@@ -158,7 +158,7 @@ def command(text: str) -> str:
 
 
 def presence(package: str) -> str:
-    """Return the text of the launch condition that a package is installed, which is unknown until launch."""
+    """Return a text that represents the condition that a package is installed. Whether it holds is unknown until launch."""
     return f"{_PRESENT}{package}"
 
 

@@ -84,12 +84,15 @@ def check(
 
 
 def _union(parts: Iterable[Iterable[T]]) -> tuple[T, ...]:
-    """Return the members of all parts in order, without duplicates."""
+    """Return the members of the collections ``parts`` in order, without duplicates."""
     return tuple(dict.fromkeys([member for part in parts for member in part]))
 
 
 def _not_cloned(workspace: Workspace) -> Iterator[UnclonedRepositories]:
-    """Yield for each list, such as a .repos file, its repositories that are not cloned and are not named like a known package."""
+    """Yield for each list, such as a .repos file, the repositories in the list that are not in the workspace.
+
+    Repositories with the name of a known package are left out.
+    """
     world = workspace.world
     for path, names in world.awaited.lists:
         if unknown := [name for name in names if not world.is_package(package_name(name))]:

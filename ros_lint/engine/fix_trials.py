@@ -120,7 +120,6 @@ class FixTrials:
 
         These are the safe fixes, and the unsafe fixes if they are selected, that edit only files which may be changed.
 
-
         Spans of edits are valid only for one version of a file. Therefore the loader keeps the bytes of the files to
         edit, and the workspace is checked again with these bytes.
         """

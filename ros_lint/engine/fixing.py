@@ -54,7 +54,7 @@ class Trials(Protocol):
     """Tries fixes on a workspace without writing them. ``changed`` has the new contents of changed files, by path."""
 
     def fixable(self, changed: Mapping[str, bytes]) -> list[Issue]:
-        """Return the issues that have a fix of the selected kind: safe, or also unsafe."""
+        """Return the issues that have a safe fix, or an unsafe fix if unsafe fixes are selected."""
 
     def applied(self, changed: Mapping[str, bytes], group: Iterable[Issue]) -> dict[str, bytes]:
         """Return ``changed`` with the fixes of ``group`` applied to it. Raises EditError if the fixes cannot be combined."""

@@ -153,7 +153,7 @@ class Knowledge:
         return self._supplemented[key]
 
     def _neighbours(self, distro: str, package: str, kind: ContentKind) -> tuple[list[Known], list[Known]]:
-        """Return the names of one kind in a package: for each distribution before ``distro``, and for each after it."""
+        """Return the names of one kind in a package, for each distribution: two lists, before ``distro`` and after it."""
         at = self._order.index(distro)
         parts = self._order[:at], self._order[at + 1 :]
         before, after = ([self._provides(name).known(package, kind) for name in part] for part in parts)

@@ -137,7 +137,7 @@ class Names:
         return () if prefix in self._doubtful_names("include_system.tsv") else self._include_system.get(prefix, ())
 
     def maps(self, folder: str) -> bool:
-        """Return whether headers below a folder may belong to the tool chain or to a package not named like the folder."""
+        """Return whether headers below a folder may belong to the tool chain or to a package with another name."""
         return folder in self._mapped_folders or folder in SYSTEM_HEADER_FOLDERS or folder in self._shared_folders
 
     def shares(self, folder: str) -> bool:
@@ -147,8 +147,8 @@ class Names:
     def module(self, module: str) -> tuple[str, ...]:
         """Return the rosdep keys that provide a Python module, best first; ``("-",)`` for a module of the standard library.
 
-        ``module`` may be dotted. A key counts if the name of its system package fits, if packages that import the module
-        declare it, or if it was entered manually. Keys that only data from nixpkgs name do not count.
+        ``module`` may be dotted. A key is returned if the name of its system package fits, if packages that import the
+        module declare the key, or if it was entered manually, but not if only data from nixpkgs name it.
         """
         top, _, rest = module.partition(".")
         if top in PYTHON_MODULES:
@@ -197,7 +197,7 @@ class Names:
         return names_of
 
     def provided_keys(self, key: str) -> tuple[str, ...]:
-        """Return the rosdep keys of the packages that the system package of a rosdep key depends on."""
+        """Return the rosdep keys whose system packages are installed together with that of ``key``, as its dependencies."""
         return self._provided_keys.get(key, ())
 
     def leaves_no_trace(self, package: str) -> bool:
@@ -260,7 +260,7 @@ class Names:
 
     @cached_property
     def _mapped_folders(self) -> frozenset[str]:
-        """First folders of the header paths in the maps, and the names of mapped headers without a folder."""
+        """First parts of the header paths in the maps: ``a`` for a/b.h, and ``a.h`` for a.h."""
         return frozenset([prefix.partition("/")[0] for names in (self._include_ros, self._include_system) for prefix in names])
 
     @cached_property

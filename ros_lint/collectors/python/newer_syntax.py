@@ -264,7 +264,7 @@ def _newer_in(found: Template) -> Iterator[Newer]:
 
 
 def _pairs(words: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Yield the indices of the opening and the closing bracket, for each pair of brackets among ``words``."""
+    """Yield the indices of the opening and the closing bracket of each pair of brackets. ``words`` are the texts of tokens."""
     opened: list[int] = []
     for index, word in enumerate(words):
         if word in _CLOSES:

@@ -15,7 +15,10 @@ _KNOWN = _MODULE | BUILTINS | {"copyright", "credits", "exit", "help", "license"
 
 
 def unbound(tree: ast.Module, met: Iterable[ast.Name]) -> Iterator[ast.Name]:
-    """Yield the first use of each name in ``met`` that certainly raises NameError. ``met`` has uses of names in ``tree``."""
+    """Yield the uses of names that certainly raise NameError: for each name, the first of these uses in ``met``.
+
+    ``met`` are the uses of names in ``tree`` to be examined.
+    """
     names = [node for node in met if node.id not in _KNOWN]
     if not names:
         return

@@ -165,9 +165,9 @@ def _placer(setup_py: Text | None) -> Callable[[Value, Span], Span]:
 
 
 def _scripts_folder(cfg: SetupCfg | None) -> tuple[str | None, Opaque | None]:
-    """Return the install folder of programs relative to the prefix, and None.
+    """Return a pair: the install folder of programs relative to the prefix, and None.
 
-    If the folder cannot be evaluated, return None and an Opaque (a place that could not be evaluated). The option
+    If the folder is unknown, the pair is None and an Opaque, that is, a place that could not be evaluated. The option
     install_scripts in the section [install] of setup.cfg sets the folder; the default is bin.
     """
     option = cfg.section("install").get("install_scripts") if cfg else None

@@ -220,7 +220,7 @@ class Machine(Interpreter):
     def _initialize(
         self, instance: Instance, base: str, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame
     ) -> None:
-        """Create the library object for ``instance``, whose class the program derives from the library class ``base``."""
+        """Create an object of the library class ``base``, which is a base class of the class of ``instance``, and store it."""
         result = self.library.call(self, base, arguments, keywords, node, frame)
         instance.made = result if isinstance(result, LaunchObject) else None
 
@@ -296,7 +296,7 @@ class Machine(Interpreter):
         return self.joined([Guarded(returned.value, returned.conditions[count:]) for returned in frame.returned])
 
     def _cut_off(self, what: str, arguments: list[Value], keywords: dict[str, Value], call: ast.Call, caller: Frame) -> Unknown:
-        """Record a call that is not interpreted to its end, and the statement where its interpretation ends. Return Unknown."""
+        """Record that the interpretation of a call ended early, and the statement at which it ended. Return Unknown."""
         node, source = self.stopped_at or (call, caller.source)
         self.cut_off.append((what, node, source))
         self.stopped_at = None

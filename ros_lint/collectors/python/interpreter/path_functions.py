@@ -1,4 +1,4 @@
-"""Functions of os.path and attributes of pathlib paths, for symbolic texts: paths with parts that are known only at launch."""
+"""Functions of os.path and attributes of pathlib paths, for paths with parts that are known only at launch."""
 
 from __future__ import annotations
 
@@ -39,7 +39,10 @@ def split(path: str) -> tuple[str, str]:
 
 
 def split_suffix(path: str) -> tuple[str, str]:
-    """Return a path without its suffix, and the suffix, as os.path.splitext does. Both are UNKNOWN if unknown before launch."""
+    """Return a path without its suffix, and the suffix, as os.path.splitext does.
+
+    Both are UNKNOWN if the suffix is known only at launch.
+    """
     if is_plain(path):
         return posixpath.splitext(path)
     dot = _last_outside(path, ".")

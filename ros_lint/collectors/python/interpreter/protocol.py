@@ -67,7 +67,10 @@ class Library(Protocol):
         ...
 
     def with_defaults(self, interpreter: Interpreter, text: str) -> tuple[str, ...]:
-        """Return the possible values of a symbolic text if each launch argument that is declared so far has its default value."""
+        """Return the possible values of ``text``, a text that is known only at launch.
+
+        Each launch argument that has been declared so far is assumed to have its default value.
+        """
         ...
 
     def misuse(self, made: LaunchObject, how: How) -> How | None:

@@ -173,7 +173,7 @@ class Recorder:
         return Guarded(value, (remains,))
 
     def stop_at(self, statement: ast.stmt, source: Source) -> None:
-        """Record a statement at which the budget was exceeded. It must be called for inner statements before outer statements."""
+        """Record a statement at which the budget was exceeded. Call this method for inner statements before outer statements."""
         if self.stopped_at is None or self.stopped_at[1] is not source:
             self.stopped_at = statement, source
 

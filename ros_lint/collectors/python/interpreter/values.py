@@ -295,9 +295,9 @@ class Class:
         return any(cls is base for cls in self._line())
 
     def inherited(self, derived: Class, name: str) -> Value | None:
-        """Return the attribute ``name`` of ``super()`` in a method of the class ``derived``, for an object of this class.
+        """Return the attribute ``name`` that ``super()`` has in a method of the class ``derived``, None if it is not found.
 
-        The result is None if the attribute is not found.
+        The method is called for an object of the class ``self``, which is ``derived`` or a class derived from it.
         """
         line = list(self._line())
         for cls in line[line.index(derived) + 1 :] if derived in line else ():
@@ -443,7 +443,7 @@ def guarded_text(text: str, made: Value) -> Value:
 
 
 def under(texts: Iterable[str], conditions: Conditions) -> Iterator[str]:
-    """Yield symbolic texts with ``conditions`` added to the conditions of each text."""
+    """Yield ``texts`` with ``conditions`` added to the conditions under which each text applies."""
     for text in texts:
         yield conditional(text, (*conditions, *conditions_of(text))) if conditions else text
 
@@ -480,5 +480,5 @@ def same(left: Value, right: Value) -> bool:
 
 
 def environment(name: str, default: str | None) -> str:
-    """Return the symbolic text for the value of the environment variable ``name``, which is known only at launch."""
+    """Return a text that represents the value of the environment variable ``name``, which is known only at launch."""
     return configuration(f"${name}", default)
