@@ -99,10 +99,10 @@ def parse_as(text: str, make: Callable[[str, dict[str, str], int], _E]) -> _E:
 
 
 def unmarked(data: bytes) -> bytes:
-    """Return ``data`` with a byte order mark at its start replaced by an invalid character, so that expat rejects it.
+    """Replace a byte order mark at the start of ``data`` by an invalid character, so that the XML parser rejects ``data``.
 
-    Such a mark is the second one of the file, because decoding has removed the first. XML forbids it, but expat would
-    ignore it.
+    The mark is the second one of the file, because decoding has removed the first. XML forbids a second mark, but the
+    parser (expat) would ignore it.
     """
     return b"\xef\xbf\xbe" + data[3:] if data.startswith(b"\xef\xbb\xbf") else data
 

@@ -81,10 +81,9 @@ def _render(report: Report, request: Request, form: str, style: Style) -> bytes:
 
 
 def _relative_to_current_folder(base: str, report: Report, texts: SourceTexts) -> tuple[Report, SourceTexts]:
-    """Return a report and a look-up of source texts whose paths are relative to the current folder, for terminals and editors.
+    """Return the report with paths relative to the current folder, and a function that returns the source text of such a path.
 
-    If neither the base folder of the report nor the current folder contains the other, paths stay relative to the base
-    folder.
+    Paths stay relative to ``base`` if neither ``base`` nor the current folder contains the other.
     """
     current = os.path.realpath(os.curdir)
     if current == base or os.path.commonpath((base, current)) not in (base, current):

@@ -39,7 +39,7 @@ def listing(rules: Iterable[Rule]) -> str:
 
 
 def page(rule: Rule, example: str = "") -> str:
-    """Return the Markdown page of a rule. ``example`` is output of the rule that is added to the section "What it finds"."""
+    """Return the Markdown page of a rule. The output ``example`` is added to the section "What it finds"."""
     facts = [
         f"{rule.severity!s}",
         "on by default" if rule.default else f"off by default (`--select {rule.name}` or `--pedantic`)",

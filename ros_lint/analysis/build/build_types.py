@@ -10,9 +10,9 @@ from ros_lint.workspace.model import Package, Workspace
 
 
 def build_types(workspace: Workspace) -> Iterator[tuple[Package, list[Element]]]:
-    """Yield each package whose package.xml has no errors, with its ``<build_type>`` elements whose condition is certainly true.
+    """Yield each package with its ``<build_type>`` elements. Elements with a condition that may be false are left out.
 
-    Packages that colcon cannot use (``workspace.unusable``) are included.
+    Packages that colcon cannot use (``workspace.unusable``) are included, but not packages with errors in package.xml.
     """
     for package in (*workspace.packages, *workspace.unusable):
         if package.manifest and not package.manifest.problems:

@@ -33,10 +33,10 @@ def is_optional_target(package: Package, target: BuildTarget) -> bool:
 
 
 def installed_to_bin_only(package: Package, name: str) -> bool:
-    """Return whether a program that is missing in ``lib/<package>`` is built or installed to another folder.
+    """Return whether CMake builds a program called ``name``, or whether a Python package installs ``bin/<name>``.
 
-    The result is True if CMake builds a program called ``name``, or if a Python package installs ``bin/<name>``. Another rule
-    then reports the program. Callers check before that ``lib/<package>`` does not contain the program.
+    Callers have checked that ``lib/<package>`` does not contain the program. If the result is True, another rule reports
+    the program.
     """
     script = package.script
     if script is None:

@@ -44,7 +44,7 @@ def _always_depend(package: Package) -> bool:
 def _depends_on_runs(package: Package, workspace: Workspace) -> bool:
     """Return whether package.xml contains a ``<depend>`` tag for a dependency that is only needed at run time.
 
-    The uses of the dependency decide; without uses, the tags that released packages mostly use for the dependency.
+    The uses of the dependency decide. If there are none, the tags by which most released packages declare it decide.
     """
     roles: dict[str, Role] = {}
     for use in package.uses:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def is_library(world: World, name: str) -> bool:
-    """Return whether a name is a rosdep key of a compiled library. Every key counts whose name does not begin with ``python``."""
+    """Return whether a name is a rosdep key of a compiled library. All keys count, except for ``python...``."""
     return world.is_key(name) and not name.startswith("python")
 
 

@@ -116,7 +116,7 @@ def _is_only_for_ros1(name: str, workspace: Workspace) -> bool:
 
 
 def _is_declared_as_key(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether a rosdep key for the library ``name`` is declared: libnlopt-dev for the former ROS package nlopt."""
+    """Return whether the package declares a rosdep key for the library ``name``, e.g. libnlopt-dev for ``nlopt``."""
     return any(workspace.world.is_key(declared.name) and is_part(declared.name, name) for declared in package.declared)
 
 

@@ -65,9 +65,9 @@ def declared_names(workspace: Workspace) -> Mapping[str, Sequence[Package]]:
 
 
 def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDependency]:
-    """Yield an unresolved dependency for each of ``packages`` that certainly declares ``name``, which cannot be resolved.
+    """Yield an unresolved dependency for each of ``packages`` that certainly declares ``name``.
 
-    A tag under a condition of unknown value is not certain.
+    ``name`` is neither a package nor a rosdep key. A declaration is not certain if the value of its condition is unknown.
     """
     for package in packages:
         tags = package.tags(name)

@@ -90,8 +90,8 @@ def cheapest_cut(graph: Graph, arcs: Mapping[str, Collection[str]]) -> tuple[Edg
     - dependencies with several tags,
     - members of groups.
 
-    The cut may not be the smallest one if a component has more than 12 nodes and needs more than 2 cuts. Even then no
-    edge of the cut can be left out.
+    If a component has more than 12 nodes, and more than 2 of its edges have to be removed, there may be a smaller cut. Even
+    then no edge of the returned cut can be left out.
     """
     loops = [(name, name) for name in sorted(arcs) if name in arcs[name]]
     plain = {name: frozenset(dependencies) - {name} for name, dependencies in arcs.items()}

@@ -49,7 +49,7 @@ def code_for(name: str) -> str:
 
 
 def check(name: str, code: str) -> None:
-    """Raise NewRuleError if the rule cannot have this name or code, or its Python package cannot have this name."""
+    """Raise NewRuleError if the name or the code is invalid, reserved or taken, or if a Python package cannot have the name."""
     rule = Rule(name, code, "", Severity.WARNING, "1.0", "")
     for problem in problems(registry.load(), [Plugin(name, (rule,))]):
         raise NewRuleError(problem)

@@ -25,8 +25,8 @@ class _LayerEntry(NamedTuple):
 def run(workspace: Workspace, form: str = "text") -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code, which is 0. ``form`` is the output format, "text" or "json".
 
-    The topmost layer has the package in use: the workspace, then the underlays in their order, then the released
-    packages. Raises KnowledgeError.
+    The package in use is the one in the topmost layer. The layers from the top are the workspace, the underlays in their
+    order, and the released packages. Raises KnowledgeError.
     """
     names = {*workspace.by_name, *(name for underlay in workspace.world.underlays for name in underlay.packages)}
     layers = {name: list(_entries(workspace, name)) for name in sorted(names)}

@@ -77,9 +77,9 @@ def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
 
 
 def _is_given_data(run: Run, args: list[str]) -> bool:
-    """Return whether an unknown command has an argument that is a folder of the package without C++ sources.
+    """Return whether an argument of an unknown command is the path or name of a folder that contains no C++ sources.
 
-    The argument is the path or the name of the folder. The command probably installs the folder: ``install_models(meshes)``.
+    The command probably installs the folder: ``install_models(meshes)``.
     """
     words = frozenset([plain for arg in args if is_known(plain := strip_mark(arg)[0])])
     below = [file for file in run.paths.files if not words.isdisjoint(_folders(file))]
