@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class Rule(NamedTuple):
     """A check with its metadata. The module that contains the check assigns it to ``RULE``.
 
-    Exactly one of ``package``, ``workspace`` and ``suppressions`` is set. Each is a pure generator of findings.
+    Exactly one of ``package``, ``workspace`` and ``suppressions`` is set, to a pure function that yields findings.
     """
 
     name: str

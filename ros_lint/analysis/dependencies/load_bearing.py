@@ -109,10 +109,10 @@ def undeclared_uses(package: Package, workspace: Workspace) -> tuple[Use, ...]:
 
 @cached_by_workspace
 def _undeclared_uses_by_name(workspace: Workspace) -> Mapping[str, Sequence[tuple[Package, Use]]]:
-    """Return the uses of :func:`undeclared_uses` in all packages of the workspace, by the name of each possible provider.
+    """Return the undeclared uses in all packages of the workspace (:func:`undeclared_uses`), by possible provider.
 
-    Each item has the package that contains the use, and the use. Of several uses in one package with equal providers,
-    only the last is listed.
+    Each item is a pair of a package and a use in this package. If a package has several uses with the same providers,
+    only the last of these uses is listed.
     """
     result: dict[str, list[tuple[Package, Use]]] = {}
     for package in workspace.packages:

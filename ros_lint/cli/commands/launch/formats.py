@@ -88,7 +88,7 @@ def tree(expanded: ExpandedFile) -> str:
 
 
 def show_args(expanded: ExpandedFile) -> str:
-    """Return the launch arguments with their descriptions and choices. Those of included files come last, each name once."""
+    """Return a text of the launch arguments with their descriptions and choices. Arguments of included files come last."""
     arguments: dict[str, Argument] = {}
     for argument in sorted(expanded.expansion.arguments, key=lambda argument: argument.depth > 0):
         arguments.setdefault(argument.name, argument)

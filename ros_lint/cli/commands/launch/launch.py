@@ -150,7 +150,7 @@ def _output(content: ExpandedFile, place: str, arguments: Mapping[str, str], opt
 
 
 def _shown(started: Sequence[Started], options: LaunchOptions) -> tuple[Started, ...]:
-    """Return the actions to print. The includes above a node that ``options.node`` names are printed, too."""
+    """Return the actions that the options select: up to ``depth`` includes deep, and with ``node`` the node and its includes."""
     kept = [action for action in started if options.depth is None or action.depth <= options.depth]
     if not options.node:
         return tuple(kept)

@@ -1,4 +1,4 @@
-"""Find the actions of launch files that start something that does not exist."""
+"""Find actions in launch files whose package, executable or component class does not exist, to mark them in the output."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _KINDS = ("node", "component", "process")
 
 
 def marks_of(workspace: Workspace, files: Iterable[LaunchFile]) -> Marks:
-    """Return the errors of high confidence that ``ros-lint check`` reports about the actions of launch files."""
+    """Return the messages of ``ros-lint check`` about a missing package, executable or class, by the span of the action."""
     rules = [rule for rule in registry.load() if rule.name in _RULES]
     issues, _ = run_rules(workspace, rules)
     by_path: dict[str, list[tuple[Span, str]]] = {}
