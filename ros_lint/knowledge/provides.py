@@ -97,7 +97,7 @@ class ReleasedContents(NamedTuple):
         return self.origin in {"=", "b"}
 
     def known(self, kind: ContentKind) -> Known:
-        """Return the names of one kind, such as executables, and whether the list is complete."""
+        """Return the names of one kind, such as executables, in this package, and whether the list of names is complete."""
         names = self.fields.get(LETTERS[kind], ())
         return Known(
             tuple(name for name in names if not name.endswith("?")),

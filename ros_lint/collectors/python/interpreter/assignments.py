@@ -130,9 +130,9 @@ def _store(machine: Interpreter, target: ast.Subscript, value: Value, frame: Fra
 
 
 def _choices(machine: Interpreter, value: Value) -> Iterator[Value]:
-    """Yield each alternative of a value, except alternatives that contradict the conditions of the interpreted code.
+    """Yield each alternative of a value, except those that contradict the conditions under which the interpreted code runs.
 
-    While the caller uses an alternative, its conditions are added to the conditions of the interpreted code.
+    While the caller uses an alternative, the conditions of the alternative also apply to the interpreted code.
     """
     for alternative in alternatives(value):
         if are_consistent((*machine.conditions, *alternative.conditions)):

@@ -49,7 +49,7 @@ NEXT, CONTINUE, BREAK, LEAVE = range(4)
 
 
 def forget_conditions(machine: Interpreter, depth: int) -> None:
-    """Limit the number of conditions of the interpreted code.
+    """Limit the number of conditions under which the interpreted code runs.
 
     If there are too many after the first ``depth`` conditions, a single unknown condition replaces these later conditions.
     """

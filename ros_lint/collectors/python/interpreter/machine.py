@@ -85,7 +85,10 @@ class Machine(Interpreter):
 
     @contextmanager
     def under(self, *conditions: LaunchCondition) -> Iterator[None]:
-        """Return a context manager that adds ``conditions`` to the conditions of the interpreted code in its ``with`` block."""
+        """Return a context manager for the interpretation of code that runs only if ``conditions`` hold.
+
+        Conditions of enclosing ``with`` blocks also apply.
+        """
         before = self.conditions
         self.conditions = (*before, *conditions)
         try:

@@ -95,7 +95,10 @@ class Interpreter(Recorder, ABC):
 
     @abstractmethod
     def under(self, *conditions: LaunchCondition) -> AbstractContextManager[None]:
-        """Return a context manager that adds ``conditions`` to the conditions of the interpreted code in its ``with`` block."""
+        """Return a context manager for the interpretation of code that runs only if ``conditions`` hold.
+
+        Conditions of enclosing ``with`` blocks also apply.
+        """
 
     @abstractmethod
     def module(self, name: str, importer: Source, at: ast.stmt) -> Source | None:

@@ -51,7 +51,7 @@ def are_unknown(conditions: Conditions) -> bool:
 
 
 class Recorder:
-    """The effects of a program that are recorded while it is interpreted, and the conditions of the interpreted code."""
+    """The effects of a program that are recorded while it is interpreted, and the conditions under which its code runs."""
 
     def __init__(self, budget: Budget) -> None:
         self.budget = budget
@@ -123,14 +123,14 @@ class Recorder:
         return f"{UNKNOWN}{self._branches}"
 
     def guard(self, value: Value) -> Value:
-        """Return ``value`` as an element of a collection that exists only under the conditions of the interpreted code.
+        """Return ``value`` as an element that a collection has only if the interpreted code runs, as in a branch.
 
-        Without such conditions, ``value`` is returned unchanged.
+        If the code runs in any case, ``value`` is returned unchanged.
         """
         return Guarded(value, self.conditions) if self.conditions else value
 
     def is_here(self, value: Value) -> bool:
-        """Return whether an element of a collection may exist under the conditions of the interpreted code."""
+        """Return whether an element of a collection may exist where the interpreted code runs."""
         if not isinstance(value, Guarded):
             return True
         conditions = around(value)
@@ -140,18 +140,18 @@ class Recorder:
         )
 
     def possible(self, value: Value) -> Value:
-        """Return a value without the alternatives that contradict the conditions of the interpreted code."""
+        """Return a value without the alternatives that contradict the conditions under which the interpreted code runs."""
         if not self.conditions or not isinstance(value, Union):
             return value
         here = [alternative for alternative in alternatives(value) if self.is_here(alternative)]
         return union(here) if here else value
 
     def present(self, values: Sequence[Value]) -> list[Value]:
-        """Return the elements of ``values`` that may exist under the conditions of the interpreted code."""
+        """Return the elements of ``values`` that may exist where the interpreted code runs."""
         return [value for value in values if self.is_here(value)] if self.conditions else list(values)
 
     def any_perhaps(self, values: Iterable[Value]) -> bool:
-        """Return whether any element of a list may be missing, although the conditions of the interpreted code hold."""
+        """Return whether an element of a list may be missing where the interpreted code runs."""
         return any(isinstance(value, Guarded) and not set(around(value)) <= {*self.conditions} for value in values)
 
     def is_at(self, values: Sequence[Value], key: int | slice) -> bool:

@@ -200,7 +200,7 @@ class LaunchObject:
 
 
 class Function:
-    """A function that the program defines. ``frame`` has the names of the module or function around the definition."""
+    """A function that the program defines. ``frame`` has the names of the module or function that contains the definition."""
 
     __slots__ = ("changed", "defaults", "frame", "keyword_defaults", "node", "owner")
 
