@@ -28,7 +28,7 @@ own, or move the test that closes the cycle to a package that depends on both pa
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ros_lint.api import Confidence, Finding, Related, Rule, Severity, Workspace, graph
 
@@ -41,12 +41,12 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         edges = tuple(zip(knot.cycle, (*knot.cycle[1:], knot.cycle[0]), strict=True))
         anchor = next(edge for edge in edges if edge in knot.cut)
         here, *rest = package_graph.reasons(anchor)
-        cycle = " -> ".join((*knot.cycle, knot.cycle[0]))
+        around = (*knot.cycle, knot.cycle[0])
         yield Finding(
-            f"{'' if knot.certain else 'possible '}dependency cycle {cycle}{_others(knot)}; "
+            f"{'' if knot.certain else 'possible '}dependency cycle {' -> '.join(_quoted(around))}{_others(knot)}; "
             f"colcon cannot build the workspace until {_removal(knot, anchor, here)} removed",
             here.span,
-            cycle,
+            " -> ".join(around),
             (
                 *(Related(f"remove this {_named(reason)}, too", reason.span) for reason in rest),
                 *(related for edge in edges if edge != anchor for related in _reasons(package_graph, edge, knot)),
@@ -57,11 +57,15 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         )
 
 
+def _quoted(names: Iterable[str]) -> list[str]:
+    return [f"'{name}'" for name in names]
+
+
 def _others(knot: graph.Cycle) -> str:
     if len(knot.names) == len(knot.cycle):
         return ""
     more = ", ..." if len(knot.names) > _MOST_NAMES else ""
-    return f" ({len(knot.names)} packages depend on each other: {', '.join(knot.names[:_MOST_NAMES])}{more})"
+    return f" ({len(knot.names)} packages depend on each other: {', '.join(_quoted(knot.names[:_MOST_NAMES]))}{more})"
 
 
 def _removal(knot: graph.Cycle, anchor: graph.Edge, reason: graph.Reason) -> str:

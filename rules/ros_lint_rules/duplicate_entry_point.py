@@ -34,7 +34,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if earlier.span != entry.span:
             change = "remove" if earlier.target == entry.target else "rename"
             message = (
-                f"entry point '{entry.name}' is already defined as {earlier.target}; setuptools stops at a second definition: "
+                f"entry point '{entry.name}' is already defined as '{earlier.target}'; setuptools stops at a second definition: "
                 f"{change} one of them"
             )
             yield Finding(message, entry.span, entry.name, (Related("the first definition", earlier.span),))

@@ -42,7 +42,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         if len(same) < 2:
             continue
         first, *others = same
-        *earlier, last = [package.path or "." for package in same]
+        *earlier, last = [f"'{package.path or '.'}'" for package in same]
         paths = f"{', '.join(earlier)} and {last}"
         yield Finding(
             f"{len(same)} packages have the name '{name}': {paths}; colcon rejects the workspace; rename one, or put "

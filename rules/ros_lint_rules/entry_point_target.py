@@ -72,7 +72,7 @@ def _lacking(
         elif runs:
             remedy = f"write {name}:main"
             if module is not None and not module.open and "main" not in module.names:
-                remedy = f"{module.path} has no 'main': define it and {remedy}, or remove the entry point"
+                remedy = f"'{module.path}' has no 'main': define it and {remedy}, or remove the entry point"
             yield Finding(f"entry point '{entry.name}' names a module but no function; {remedy}", entry.span, entry.name)
         return
     if module is None:
@@ -83,7 +83,7 @@ def _lacking(
         near = names.similar_names(first, module.names, 1, 0.7)
         hint = names.ask_if_meant(near) or "; define it, or remove the entry point"
         yield Finding(
-            f"entry point '{entry.name}': {module.path} does not define '{first}'{hint}",
+            f"entry point '{entry.name}': '{module.path}' does not define '{first}'{hint}",
             entry.span,
             entry.name,
             (Related("the module", package.start_of(module.path)),),

@@ -51,7 +51,8 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             sources = [package.base_path(place.source) for place in places]
             if len(set(sources)) > 1 and (workspace.unread() or _included(workspace).issuperset(sources)):
                 continue
-            paths = ", ".join(place.path.partition(f"share/{package.name}/")[2] for place in places)
+            share = f"share/{package.name}/"
+            paths = ", ".join(f"'{place.path.removeprefix(share)}'" for place in places)
             yield Finding(
                 f"'{package.name}' installs '{name}' more than once ({paths}), so ros2 launch {package.name} {name} fails; "
                 "rename one file, or install it only once",

@@ -117,7 +117,7 @@ def _missing(owner: str, name: str, starting: Package, workspace: Workspace) -> 
         if name in installed.elsewhere:
             path = installed.elsewhere[name]
             where = tuple(Related("installed here", p.span) for p in package.built.products.installs if p.path == path)
-            hint = f" in lib/{owner}; it is installed as {path}, where launch does not look; install it to lib/{owner}"
+            hint = f" in lib/{owner}; it is installed as '{path}', where launch does not look; install it to lib/{owner}"
             return _Missing(hint, "", where)
         all_names |= installed.names
         if left_out := _uninstalled_script(package, name) or _uninstalled_target(package, name):

@@ -153,7 +153,7 @@ def _of_element(element: Element, violation: manifests.Violation) -> Finding:
         case "url", "":
             return _finding(f"'{text}' is not a valid address; write an address such as https://example.org/robot", place, "url")
     if element.tag == "version" and violation.attribute == "compatibility":
-        message = "the schema has no attribute compatibility, although REP 149 has it; remove it"
+        message = "the schema has no attribute 'compatibility', although REP 149 has it; remove it"
         return _finding(message, element.span, "version")
     return _other(element.span, element.tag, violation)
 

@@ -90,7 +90,7 @@ def _doubled(package: Package, headers: build.OwnHeaders) -> Iterator[Finding]:
     fix = Fix.of("install the contents of the folder", edits.cmake.write(call, at, f"{call.texts[at]}/")) if call else None
     name = first.source.rpartition("/")[2]
     yield Finding(
-        f"the headers in include/ ({name} ...) are installed to {folder}, where compilers do not find them; "
+        f"the headers in 'include/' ('{name}' ...) are installed to {folder}, where compilers do not find them; "
         "write include/ with a slash at the end",
         first.span,
         "include/",
@@ -122,8 +122,8 @@ def _below_export(package: Package, headers: build.OwnHeaders) -> Iterator[Findi
     needed = bool(headers.included) or (headers.library and not headers.loaded)
     written = "include/${PROJECT_NAME}" if folder == f"include/{script.project.name}" else folder
     yield Finding(
-        f"the headers in include/ ({name} ...) are installed to {folder}, but only include is exported, so other packages do not "
-        f"find them; write ament_export_include_directories({written})",
+        f"the headers in 'include/' ('{name}' ...) are installed to {folder}, but only include is exported, so other "
+        f"packages do not find them; write ament_export_include_directories({written})",
         call.span(0),
         "include/",
         build.related_includes(headers.included),

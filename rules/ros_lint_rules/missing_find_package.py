@@ -76,7 +76,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         is_declared = package.declares(name) and (mention.purpose == "interfaces" or workspace.world.where_else(name))
         if mention.purpose in _NO_EVIDENCE or not (is_declared or workspace.world.is_package(name)):
             continue
-        what = mention.what or mention.name
+        what = mention.what or f"'{mention.name}'"
         missing.setdefault(name, []).append((what, Related(f"also needed here: {what}", mention.span)))
     for name, places in missing.items():
         (what, first), *others = places

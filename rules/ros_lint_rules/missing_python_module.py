@@ -140,7 +140,7 @@ def _of_entry_points(script: BuildScript) -> Iterator[_Lack]:
         inside = module.name.rpartition(".")[0]
         if inside and not {module.name, inside}.intersection(script.products.python_packages):
             entry = next(entry for entry in script.products.entry_points if entry.module == module.name)
-            message = f"entry point '{entry.name}' needs {module.path}, but the package '{inside}' is not installed"
+            message = f"entry point '{entry.name}' needs '{module.path}', but the package '{inside}' is not installed"
             yield _Lack(inside, module.path.rpartition("/")[0], message, entry.span)
 
 
@@ -152,7 +152,7 @@ def _imported(imports: Iterable[UninstalledImport], as_data: Container[str]) -> 
     for item in imports:
         folder, name = item.source.rstrip("/"), item.module
         if "." in name and folder not in as_data:
-            message = f"{item.program} imports from {item.source}, but the package '{name}' is not installed"
+            message = f"'{item.program}' imports from '{item.source}', but the package '{name}' is not installed"
             yield _Lack(name, folder, message, item.span, item.sure)
 
 
@@ -185,9 +185,9 @@ def _beside_programs(package: Package, workspace: Workspace) -> Iterator[Finding
         place, slash, _ = item.program.rpartition("/")
         why = f"is not installed to {place}, where Python looks for it; install it there"
         if not slash:
-            why = f"is installed as {item.program.rpartition('.')[0]}.{module}; import it by that name"
+            why = f"is installed as '{item.program.rpartition('.')[0]}.{module}'; import it by that name"
         yield Finding(
-            f"{item.program} imports '{module}', but {item.source} {why}",
+            f"'{item.program}' imports '{module}', but '{item.source}' {why}",
             item.span,
             item.source,
             confidence=Confidence.HIGH if item.sure else Confidence.MEDIUM,

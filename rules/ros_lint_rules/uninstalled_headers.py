@@ -74,7 +74,7 @@ def _uninstalled(package: Package, headers: build.OwnHeaders) -> Finding:
     may_be_needless = bool(exports) and (headers.loaded or not library) and not includes
     why = ", although they are exported" if exports else f", although '{includes[0][0].name}' includes them" if includes else ""
     return Finding(
-        f"the headers in include/ ({_name(headers.files[0])} ...) are not installed{why}; "
+        f"the headers in 'include/' ('{_name(headers.files[0])}' ...) are not installed{why}; "
         f"install them to {_place(exports)}{', or remove the export' if may_be_needless else ''}",
         headers.insertion,
         "include/",
@@ -93,7 +93,7 @@ def _export_without_library(headers: Sequence[str], exports: Sequence[Call]) -> 
     """Yield the finding for exported headers that are not installed, in a package with programs but without libraries."""
     first, *others = exports
     yield Finding(
-        f"the headers in include/ ({_name(headers[0])} ...) are exported but not installed, and there is no library "
+        f"the headers in 'include/' ('{_name(headers[0])}' ...) are exported but not installed, and there is no library "
         "to use them with; remove the export",
         first.name_span,
         "include/",

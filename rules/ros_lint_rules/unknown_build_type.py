@@ -46,7 +46,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
     for package, exports in build.build_types(workspace):
         for export in exports:
             if not export.text:
-                message = "<build_type> is empty; write ament_cmake or ament_python"
+                message = "<build_type> is empty; write 'ament_cmake' or 'ament_python'"
                 yield Finding(message, export.span, "build_type", package=package.name)
             elif export.text not in _TYPES:
                 yield _unknown(export)._replace(package=package.name)

@@ -203,7 +203,7 @@ def _once_installed(lacking: _Lack | None) -> _Lack | None:
     """
     if lacking is None or lacking.role is not Role.EXPORT:
         return None
-    why = "but headers in include/ use it; once these headers are installed, packages that include them need it, too"
+    why = "but headers in 'include/' use it; once these headers are installed, packages that include them need it, too"
     return lacking._replace(why=why, confidence=Confidence.LOW)
 
 

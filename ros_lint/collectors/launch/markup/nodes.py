@@ -46,8 +46,8 @@ _LIMITS = ("respawn_max_retries", *_SECONDS)
 
 def _limits(reader: Reader, entity: Entity) -> None:
     for name in entity.attributes:
-        if f"attribute {name}" in SINCE:
-            reader.note_newer(f"attribute {name}", entity.place(name))
+        if f"attribute '{name}'" in SINCE:
+            reader.note_newer(f"attribute '{name}'", entity.place(name))
     entity.get("respawn_max_retries", "int")
     for limit in _SECONDS:
         seconds = entity.get(limit, "float")

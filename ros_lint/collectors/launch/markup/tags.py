@@ -71,9 +71,9 @@ SINCE: Mapping[str, str] = {
     "<lifecycle_node>": "lyrical",  # launch_ros 0.29.4
     "<composable_lifecycle_node>": "lyrical",  # launch_ros 0.29.3
     "<let> in <include>": "jazzy",  # launch 3.4.7
-    "attribute sigkill_timeout": "iron",  # launch 1.4.0
-    "attribute sigterm_timeout": "iron",  # launch 1.4.0
-    "attribute respawn_max_retries": "jazzy",  # launch 3.1.0
+    "attribute 'sigkill_timeout'": "iron",  # launch 1.4.0
+    "attribute 'sigterm_timeout'": "iron",  # launch 1.4.0
+    "attribute 'respawn_max_retries'": "jazzy",  # launch 3.1.0
     "$(launch_log_dir)": "iron",  # launch 1.3.0
     "$(eval) with modules": "iron",  # launch 1.4.0
     "$(for-var)": "kilted",  # launch 3.8.0
