@@ -163,7 +163,7 @@ def _shown(value: Any) -> str:
 def hashable(machine: Interpreter, key: Value) -> Any:
     """Return the key under which the interpreter stores an item of a dictionary: texts, numbers and None are unchanged.
 
-    A tuple, a list or a launch object is replaced by its text at launch, any other value by UNKNOWN.
+    A tuple, a list or a launch object with only one possible text is replaced by this text, any other value by UNKNOWN.
     """
     if isinstance(key, (str, *_NUMBERS)) or key is None:
         return key
@@ -446,7 +446,7 @@ def chosen(owner: dict[Any, Value], key: str) -> list[Value]:
 def without(owner: dict[Any, Value], key: str) -> Conditions:
     """Return the conditions under which a dictionary has no item ``key``. The value of ``key`` is known only at launch.
 
-    The result is () if a key of the dictionary is not a known text.
+    The result is () if the conditions are unknown, for example because a key of the dictionary is not a known text.
     """
     if not _is_choice(owner, key):
         return ()
