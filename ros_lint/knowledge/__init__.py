@@ -184,7 +184,7 @@ class Knowledge:
         return self.index if distro == self.distro else next(entry for entry in self.others if entry.distro == distro)
 
     def elsewhere(self, name: str) -> tuple[str, ...]:
-        """Return the other distributions that contain a package, oldest first."""
+        """Return the distributions that contain a package, oldest first, without the distribution to check for."""
         return tuple(entry.distro for entry in self._indexes_with(name))
 
     def _indexes_with(self, name: str) -> tuple[Index, ...]:

@@ -126,7 +126,10 @@ def by_cmake(world: Layers, name: str) -> Providers:
 
 
 def by_macro(world: Layers, package: str) -> Providers:
-    """Return the packages and keys that provide the CMake macros of ``package``."""
+    """Return the packages and rosdep keys that provide the CMake macros of ``package``.
+
+    Besides ``package``, these are its alternatives: a vendor package, for example, and the rosdep key of the library.
+    """
     names = world.knowledge.names.alternatives(package)
     return world.by_cmake(package) if len(names) == 1 else _existing(world, names, keys=names)
 

@@ -167,7 +167,10 @@ class Provides(Entries[ReleasedContents]):
         super().__init__(table, parse)
 
     def known(self, name: str, kind: ContentKind) -> Known:
-        """Return the names of one kind that a package provides; NOTHING_KNOWN if the data file does not list the package."""
+        """Return the names of one kind, such as executables, that a package provides.
+
+        If the data file does not list the package, the result is an empty and incomplete list (``NOTHING_KNOWN``).
+        """
         contents = self.get(name)
         return contents.known(kind) if contents else NOTHING_KNOWN
 

@@ -1,7 +1,7 @@
 """Find existing package names and rosdep keys that are similar to an unknown name.
 
-A fix needs a name that the unknown name certainly means (:meth:`Spelling.same`, :meth:`Spelling.one_slip`). A suggestion
-in a message needs similar names (:meth:`Spelling.near`). Further functions recognize the name of a library's vendor
+A fix needs a name that is certainly meant (:meth:`Spelling.same`, :meth:`Spelling.one_slip`). For a suggestion in a
+message, similar names suffice (:meth:`Spelling.near`). Further functions recognize the name of a library's vendor
 package, and the rosdep key for a part of a library.
 """
 
@@ -109,12 +109,12 @@ class Spelling:
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:
     """Return at most ``most`` members of ``names`` that ``name`` may be a misspelling of, the most similar first.
 
-    ``least`` is the minimum similarity, from 0 to 1. The result is that of
-    :func:`ros_lint.base.suggestions.similar_names`, except for
+    ``least`` is the minimum similarity, from 0 to 1. The members are found by
+    :func:`ros_lint.base.suggestions.similar_names`, but two kinds of them are left out:
 
-    * names with other words, such as rear_camera for front_camera, unless the differing words resemble each other or
-      begin in the same way,
-    * all names that extend ``name`` if there are several, such as left_arm and right_arm for arm.
+    * names with a different word, such as rear_camera for front_camera. A word that resembles a word of ``name``, or begins
+      like it, does not count as different.
+    * names that extend ``name``, if there are several, such as left_arm and right_arm for arm.
     """
     words = _words(name)
     similar = [candidate for candidate in similar_names(name, names, most, least) if _may_be_intended(words, _words(candidate))]
@@ -154,9 +154,10 @@ VENDOR = "_vendor"
 
 
 def is_vendor(package: str, library: str) -> bool:
-    """Return whether a package has the name of a vendor package for ``library``, the name or rosdep key of a library.
+    """Return whether a package has the name of a vendor package for ``library``.
 
-    The package name may have a prefix: rviz_assimp_vendor is for assimp, and google_benchmark_vendor for benchmark.
+    ``library`` is the name or the rosdep key of a library. The package name may have a prefix: rviz_assimp_vendor is for
+    assimp, and google_benchmark_vendor for benchmark.
     """
     if not package.endswith(VENDOR):
         return False
@@ -165,9 +166,9 @@ def is_vendor(package: str, library: str) -> bool:
 
 
 def is_part(part: str, key: str) -> bool:
-    """Return whether the rosdep key ``part`` is for a part of the library of the rosdep key ``key``.
+    """Return whether ``key`` is the rosdep key of a library, and ``part`` the rosdep key of a part of the library.
 
-    Example: libboost-thread-dev is for a part of libboost.
+    Example: libboost-thread-dev is a part of libboost.
     """
     words = _of_library(key)
     return words == _of_library(part)[: len(words)]
@@ -199,7 +200,10 @@ def _with_prefix(ordered: list[str], prefix: str) -> list[str]:
 
 
 def _is_slip(name: str, other: str) -> bool:
-    """Return whether two names differ by one wrong letter in a word that is long enough."""
+    """Return whether two names differ by one wrong letter.
+
+    The word with the letter must be long, because short words such as arm and art are often both right.
+    """
     longer, shorter = (name, other) if len(name) >= len(other) else (other, name)
     if name == other or len(longer) - len(shorter) > 1:
         return False

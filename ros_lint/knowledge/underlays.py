@@ -149,7 +149,7 @@ def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tre
     Each of ``prefixes`` is one of these folders; any other folder raises UnderlayError:
 
     * an install prefix such as ``/opt/ros/jazzy``,
-    * the ``install`` folder of a workspace, of either layout,
+    * the ``install`` folder of a workspace, in the merged or the isolated layout,
     * the folder of one package in an ``install`` folder, as in AMENT_PREFIX_PATH,
     * a workspace with an ``install`` folder.
 
@@ -163,7 +163,10 @@ def read(prefixes: Sequence[str], distro: str = "", base: str = "", machine: Tre
 
 
 def in_tree(tree: Tree, root: str, distro: str = "") -> Underlay:
-    """Return the underlay in a folder of a tree. Raises UnderlayError like :func:`read`."""
+    """Return the underlay in the folder ``root`` of a tree of files.
+
+    Raises UnderlayError if ``root`` is none of the folders that :func:`read` accepts.
+    """
     return Underlay(root, tuple(_prefixes(tree, root)), distro)
 
 

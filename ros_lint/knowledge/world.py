@@ -42,7 +42,7 @@ Resolution = Literal["known", "elsewhere", "end-of-life", "unknown", "unknowable
 
 
 class Member(NamedTuple):
-    """A package of the workspace, with the data that look-ups need."""
+    """A package of the workspace, with its manifest data and Python modules, by which :class:`World` looks up names."""
 
     name: str
     version: str
@@ -118,7 +118,7 @@ class World:
         return key is not None and bool(key.apt) and all(map(_SHARED_LIBRARY.match, key.apt))
 
     def resolution(self, name: str) -> Resolution:
-        """Return how a name declared in a manifest resolves, see :data:`Resolution`."""
+        """Return how a name in a dependency tag of a manifest resolves, e.g. "known" or "end-of-life", see :data:`Resolution`."""
         if self.is_package(name) or self.is_key(name):
             return "known"
         if not self.knowledge.covered:
@@ -164,19 +164,22 @@ class World:
         return released.version or None if released else None
 
     def released(self, name: str) -> Released | None:
-        """Return the data of a package in the first layer below the workspace that contains it, None if there is none."""
+        """Return the data of a package in the topmost underlay that has it, else in the package index; None if unknown."""
         installed = self._installed.get(name)
         return installed.released if installed is not None else self.knowledge.index.get(name)
 
     def installed(self, name: str) -> Installed | None:
-        """Return a package of the topmost underlay that contains it, None if there is none.
+        """Return the package ``name`` as installed in the topmost underlay that contains it; None if no underlay does.
 
-        The package is also returned if the workspace has a package of the same name.
+        A workspace package of the same name does not change the result.
         """
         return self._installed.get(name)
 
     def depends(self, name: str, kinds: Iterable[str]) -> tuple[str, ...] | None:
-        """Return the dependencies of a package, sorted; None if unknown. ``kinds`` are letters as in ``Released.depends``."""
+        """Return the dependencies of a package, sorted; None if unknown.
+
+        ``kinds`` has the letters of the dependency kinds that count, see :attr:`Member.depends`: "bx" for build and exec.
+        """
         member = self._members.get(name)
         if member is not None:
             return tuple(sorted({dependency for kind in kinds for dependency in member.depends.get(kind, ())}))
@@ -222,7 +225,10 @@ class World:
     # --- what packages provide ------------------------------------------------------------------------------------
 
     def executables(self, name: str) -> Known:
-        """Return the executables of a package as file names in lib/<package>; NOTHING_KNOWN for a package of the workspace."""
+        """Return the executables of a package as file names in lib/<package>.
+
+        For a package of the workspace, the result is an empty and incomplete list (``NOTHING_KNOWN``).
+        """
         return self._known(name, "executables")
 
     def lacks(self, name: str, kind: ContentKind, wanted: str, *, everywhere: bool) -> bool:
@@ -235,27 +241,39 @@ class World:
         return not (everywhere and self.knowledge.may_exist_elsewhere(name, kind, wanted))
 
     def launch_files(self, name: str) -> Known:
-        """Return the launch files of a package, relative to share/<package>; NOTHING_KNOWN for a package of the workspace."""
+        """Return the launch files of a package, relative to share/<package>.
+
+        For a package of the workspace, the result is an empty and incomplete list (``NOTHING_KNOWN``).
+        """
         return self._known(name, "launch")
 
     def components(self, name: str) -> Known:
-        """Return the component classes of a package; NOTHING_KNOWN for a package of the workspace."""
+        """Return the component classes of a package.
+
+        For a package of the workspace, the result is an empty and incomplete list (``NOTHING_KNOWN``).
+        """
         return self._known(name, "components")
 
     def plugins(self, name: str) -> Known:
-        """Return the plugins of a package as base=class; NOTHING_KNOWN for a package of the workspace."""
+        """Return the plugins of a package as base=class.
+
+        For a package of the workspace, the result is an empty and incomplete list (``NOTHING_KNOWN``).
+        """
         return self._known(name, "plugins")
 
     def programs(self, name: str) -> Known:
-        """Return the programs of a package as file names in bin; NOTHING_KNOWN for a package of the workspace."""
+        """Return the programs of a package as file names in bin.
+
+        For a package of the workspace, the result is an empty and incomplete list (``NOTHING_KNOWN``).
+        """
         return self._known(name, "programs")
 
     def interfaces(self, name: str, *, everywhere: bool) -> frozenset[str]:
         """Return all interfaces that a package may have, as msg/Name; empty if the list may be incomplete.
 
-        The interfaces of the package in other distributions are included if ``everywhere`` is True, or if nothing is
-        known for the distribution of the run. The list of the newest included distribution must be complete, because
-        interfaces of older distributions are rarely removed.
+        The interfaces of the package in other distributions are included if ``everywhere`` is True, or if nothing is known
+        for the distribution to check for. Data may be missing for some distributions, but not for the newest one, because
+        interfaces are rarely removed.
         """
         key = (name, everywhere)
         if key not in self._interfaces:
@@ -300,7 +318,10 @@ class World:
         return self._providers[key]
 
     def by_macro(self, package: str) -> Providers:
-        """Return the packages and keys that provide the CMake macros of ``package``, including equivalent packages."""
+        """Return the packages and rosdep keys that provide the CMake macros of ``package``.
+
+        Besides ``package``, these are its alternatives: a vendor package, for example, and the rosdep key of the library.
+        """
         key = ("macro", package)
         if key not in self._providers:
             self._providers[key] = providers.by_macro(self, package)
@@ -332,10 +353,10 @@ class World:
         return self._providers[key]
 
     def packages_with_module(self, module: str) -> tuple[str, ...]:
-        """Return the workspace packages with a top-level Python module.
+        """Return the workspace packages whose build script installs a top-level Python module.
 
-        The build scripts of the packages decide. If no script installs the module, the package of the same name counts,
-        provided that its modules are unknown or it generates interfaces.
+        If there is none, return the package with the name of the module, provided that its modules are unknown or it
+        generates interfaces.
         """
         packages = self._modules.get(module, ())
         member = self._members.get(module)
@@ -344,7 +365,7 @@ class World:
         return packages
 
     def where_else(self, name: str) -> tuple[str, ...]:
-        """Return the other distributions that contain a package, oldest first."""
+        """Return the distributions that contain a package, oldest first, without the distribution to check for."""
         return self.knowledge.elsewhere(name)
 
     def meant(self, name: str, *, python: bool = False) -> Suggestion | None:

@@ -52,7 +52,7 @@ def _line(issue: Issue) -> str:
 
 
 def _without_command(line: str) -> str:
-    """Return a line of the log in which the agent finds no command, because the agent searches the whole line for ``##vso[``."""
+    """Return a line of the log with ``## vso[`` in place of ``##vso[``, so that the agent does not run it as a command."""
     return line.replace("##vso[", "## vso[")
 
 

@@ -36,8 +36,9 @@ class Mark(NamedTuple):
 
 
 def frame(marks: Sequence[Mark], texts: SourceTexts, style: Style, most: int | None = None) -> tuple[list[str], str]:
-    """Return the rows of a code frame, and the blanks left of its vertical bar, with which further rows below it are aligned.
+    """Return the rows of a code frame, and the blanks to the left of its vertical bar.
 
+    A caller puts these blanks before further rows below the frame, to align them with the bar.
     The frame shows the lines of the places in the first ``most`` files. For places in other files, it shows only path,
     line and label. ``most`` None means all files.
     """
@@ -164,9 +165,9 @@ class _File:
         return self._row("", "", self._paint(place, f"|{'_' * (view.column(start) + 1)}{sign}{label}"))
 
     def _side(self, number: int) -> str:
-        """Return the bar to the left of source line ``number`` if the line is in a place of several lines, otherwise blanks.
+        """Return the bar to the left of source line ``number`` if a place that spans several lines covers it, otherwise blanks.
 
-        Return "" if the file has no place of several lines.
+        Return "" if no place in the file spans several lines.
         """
         for place in self._multi_line:
             if place.line < number <= place.end_line:

@@ -117,7 +117,10 @@ def _severity(group: IssueGroup) -> int:
 
 
 def _hashes(groups: Sequence[IssueGroup], texts: SourceTexts) -> dict[tuple[str, int], str]:
-    """Return the hash of the first line of each group, by path and line number. Unreadable files are left out."""
+    """Return, by path and line number, the hash of the line in which the issues of each group begin.
+
+    Lines of unreadable files are left out.
+    """
     lines: dict[str, set[int]] = {}
     for group in groups:
         span = group[0].finding.span
@@ -173,7 +176,8 @@ def _result(
 def _message(message: str, related: Sequence[tuple[str, Span]], repeated: int) -> str:
     """Return the message with links to the related places, because GitHub shows only places to which a message links.
 
-    The first ``repeated`` of the ``related`` places are those of further findings in the same line.
+    ``related`` has a text and a place for each link. The first ``repeated`` of them are further findings of the same rule in
+    the same line.
     """
     links = [f"[{_link(text)}]({number})" for number, (text, _) in enumerate(related[:_LINKS], 1)]
     parts = [_escape(sentence(message))]
@@ -243,9 +247,9 @@ def _primary(span: Span, source: Text | None) -> JsonObject:
 
 
 def _context(span: Span, source: Text) -> JsonObject:
-    """Return the region of a line with the lines before and after it.
+    """Return the SARIF region of the line of ``span``, with the lines before and after it, and the source text.
 
-    If these lines are long, return the part of the line around ``span``.
+    If these lines are long, return the region of only the part of the line around ``span``.
     """
     first, last = max(span.line - 1, 1), min(span.line + 1, source.line_count)
     context = Span(span.path, first, 1, last, len(source.line(last)) + 1)

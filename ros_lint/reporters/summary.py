@@ -40,7 +40,7 @@ class Problem(NamedTuple):
 
 
 def problems(report: Report) -> Iterator[Problem]:
-    """Yield the problems that make a run incomplete: no package, crashes of rules, and files that were not checked."""
+    """Yield the problems that make a run incomplete: a workspace without packages, crashes of rules, and unchecked files."""
     if not report.packages:
         yield Problem(Severity.ERROR, "no package found, so nothing was checked")
     for crash in report.crashes:
@@ -81,7 +81,10 @@ def name_or_count(names: Sequence[str], noun: str = "packages") -> str:
 
 
 def limits(report: Report) -> Iterator[str]:
-    """Yield sentences, without full stop, about other distributions of the repository, hidden findings and analysis limits."""
+    """Yield sentences for the summary, without full stop.
+
+    They are about distributions that the repository is also built for, hidden findings, and parts that were not analysed.
+    """
     if proposed := _proposed_distros(report):
         yield proposed
     more: Counter[str] = Counter()

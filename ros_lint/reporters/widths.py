@@ -58,7 +58,10 @@ def columns(character: str) -> int | None:
 
 @cache
 def _table() -> tuple[list[int], list[int], list[int | None]]:
-    """Return three lists for the ranges of special characters, in order: first characters, last characters, and widths."""
+    """Return the ranges of characters that do not take one column, as three lists: first characters, last characters, widths.
+
+    The ranges are sorted. The width is None for characters that must be shown as escapes.
+    """
     rows: list[tuple[int, int, int | None]] = []
     for text, width in ((_HIDDEN, None), (_JOINING, 0), (_WIDE, 2)):
         for entry in text.split():

@@ -147,7 +147,7 @@ def collect_all(
 
 
 def _processes(jobs: int, files: int) -> int:
-    """Return the number of processes for ``files`` files: at most one for each core, 0 or 1 if one process suffices."""
+    """Return the number of processes for ``files`` files, at most one for each core; 0 or 1 means to start no process."""
     cores = min(os.cpu_count() or 1, _MAX_PROCESSES)
     return min(jobs, cores) if jobs else min(cores, 8, files // _FILES_PER_PROCESS)
 

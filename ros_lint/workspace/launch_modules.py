@@ -138,7 +138,7 @@ class _InputFinder:
         return self._existing(join(parent(importer.path), module), package) or _shortest(package, module)
 
     def _module_of_named_package(self, module: str, importer: Text) -> str:
-        """Return the path of a module in another package whose name is quoted in ``importer``.
+        """Return the path of a module in another package. The file ``importer`` contains the name of the package in quotes.
 
         ``importer`` may add the folder of that package to ``sys.path``. The result is "" if no such package has the module, or
         if several have it.
@@ -161,7 +161,7 @@ class _InputFinder:
     # --- files ----------------------------------------------------------------------------------------------------
 
     def _installed_file(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
-        """Return the path of the one source file that is installed at ``path``; "" if there is none or if several are."""
+        """Return the path of the source file that is installed at ``path``; "" unless there is exactly one."""
         if path.startswith(f"{OWN_FOLDER}/"):
             return self._neighbour(path[len(OWN_FOLDER) + 1 :], file, package)
         place = installed_place(path)
@@ -171,10 +171,9 @@ class _InputFinder:
         return self._installed_sources(owners[0]).get(place.path, "") if len(owners) == 1 else ""
 
     def _neighbour(self, path: str, file: LaunchFile, package: LaunchPackage) -> str:
-        """Return the source file that is installed at ``path``, relative to the folder into which a launch file is installed.
+        """Return the source file that a launch file finds at ``path``, relative to its own folder; "" if there is none.
 
-        If the launch file is not installed, ``path`` is relative to its folder in the sources. The result is "" if there is no
-        such file.
+        For an installed launch file, ``path`` starts from the install folder; for any other, from the folder in the sources.
         """
         sources = self._installed_sources(package)
         install_path = next((place for place, source in sources.items() if source == file.path), "")

@@ -74,7 +74,7 @@ class _Found(NamedTuple):
 
     @property
     def depends_on_distro(self) -> bool:
-        """True if the build type of a package has a condition, because another distribution may then have other packages."""
+        """True if the build type of a package has a condition. Another distribution may then have other packages."""
         manifests = [*(package.manifest for package in self.discovery.packages), *self.discovery.rejected]
         exports = [export for manifest in manifests if manifest for export in manifest.exports]
         return any(export.tag == "build_type" and conditions.of(export) for export in exports)
@@ -251,9 +251,12 @@ class Loader:
     def _discover(self, tree: Tree, target: TargetDistro) -> tuple[tuple[str, ...], Discovery]:
         """Return the folders that were searched, and the packages in them.
 
-        The folders are the context, which contains the requested folders. They are only the requested folders if the context has
-        too many folders, or if colcon finds nothing in a requested folder when it starts from the context, for example because an
-        outer folder is ignored.
+        The folders are those of the context: the requested folders, and the folders with packages on which the requested
+        packages may depend. Only the requested folders are searched if
+
+        * the context has too many folders, or
+        * colcon finds nothing in a requested folder when it starts from the context, for example because an outer folder is
+          ignored.
         """
         if self._around:
             around = discover(tree, self._around, target.context, _MOST_CONTEXT)

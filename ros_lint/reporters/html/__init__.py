@@ -62,7 +62,10 @@ def _filters(issues: Iterable[Issue]) -> Iterator[str]:
 
 
 def _choice(name: str, values: Iterable[str], order: Iterable[str]) -> Iterator[str]:
-    """Yield the lines of a select element. Its options are the occurring values in the given order, each with its number."""
+    """Yield the lines of a select element. Its options are the distinct ``values``, sorted as in ``order``.
+
+    Each option shows how often the value occurs: ``error (3)``.
+    """
     numbers = Counter(values)
     yield f'<label>{name.capitalize()} <select name="{name}"><option value="">all</option>'
     for value in order:

@@ -79,7 +79,7 @@ def evaluate(tree: Tree, packages: Sequence[Parts], distro: str, earlier: Evalua
 
 
 def _same_scripts(packages: Sequence[Parts], distro: str, earlier: Evaluation) -> dict[int, BuildScript | None]:
-    """Return the scripts of ``earlier`` whose evaluation for ``distro`` gives an equal result, by the index of the package.
+    """Return the evaluated scripts of ``earlier`` that are valid for ``distro``, too, by the index of the package.
 
     The result is empty if a package with CONFIG_EXTRAS has to be evaluated again, because its CMake code runs in dependents.
     """
@@ -99,8 +99,8 @@ def _cmake(
 ) -> BuildScript:
     """Return the evaluated CMakeLists.txt of a package.
 
-    A package with CONFIG_EXTRAS, whose code runs in dependents, is added to ``helpers``: path of the workspace -> package name
-    -> Helper.
+    A package with CONFIG_EXTRAS is added to ``helpers``, because its CMake code runs in dependents. The keys of ``helpers`` are
+    the path of the workspace and the name of the package.
     """
     from ros_lint.collectors.cmake import evaluate as cmake  # noqa: PLC0415
     from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415

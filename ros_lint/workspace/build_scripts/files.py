@@ -84,7 +84,7 @@ def with_files(tree: Tree, package: DiscoveredPackage, commands: Mapping[str, Pa
 def _inputs(
     scripts: Mapping[str, ParsedScript], uninstalled: Mapping[str, Sequence[str]], programs: Sequence[str]
 ) -> Iterator[str]:
-    """Yield the files and folders of a package that are arguments of its CMake commands other than install().
+    """Yield those resources and programs of a package that are arguments of CMake commands other than install().
 
     ``uninstalled`` maps each folder to its resource files that are not installed. ``programs`` has paths of programs. Only these
     folders and files are yielded; a folder ends with a slash.

@@ -37,8 +37,8 @@ class Parts(NamedTuple):
 class Surroundings:
     """The files outside of a package that its CMake scripts can read; :class:`OutsideTree` documents the methods.
 
-    Targets of symbolic links that lead out of the workspace are not visible. For a package behind a symbolic link, no file
-    outside of it is visible, because the folder ``..`` then depends on the path.
+    Targets of symbolic links that lead out of the workspace are left out. If a symbolic link leads to the package, all files
+    outside of the package are left out, because the meaning of ``..`` then depends on the path.
     """
 
     def __init__(self, tree: Tree) -> None:

@@ -119,7 +119,10 @@ class FactCache:
             yield name
 
     def _is_obsolete(self, name: str, kept: Mapping[str, object]) -> bool:
-        """Return whether a cache record is of another version of ros-lint, or of this workspace and not in ``kept``."""
+        """Return whether to remove a record from the cache.
+
+        Removed are the records of other versions of ros-lint, and the records of this workspace that are not in ``kept``.
+        """
         return not name.startswith(f"facts-{_state()}-") or (name.startswith(self._prefix) and name not in kept)
 
     @property

@@ -40,7 +40,7 @@ class CacheFile:
         self._notes: dict[str, None] = {}
 
     def __bool__(self) -> bool:
-        """Return whether results are cached."""
+        """Return whether results are kept between runs: False if ``folder`` is empty."""
         return bool(self._path)
 
     @property
@@ -110,7 +110,10 @@ def digest(text: str) -> str:
 
 
 def state_of(paths: Iterable[str], schema: str) -> str:
-    """Return a digest of the version of Python, the time stamps and sizes of some files, and the schema of a codec."""
+    """Return a digest that changes with the versions of ros-lint and Python, with the files ``paths``, and with ``schema``.
+
+    A file counts as changed if its time stamps, size or inode are different. ``schema`` describes the format of the records.
+    """
     stamps = []
     for path in sorted(paths):
         try:

@@ -113,7 +113,7 @@ def _remove_abandoned(place: str) -> None:
 
 
 def _files(place: str, suffix: str) -> Iterator[tuple[str, os.stat_result]]:
-    """Yield the path and the state of each file in a folder whose name ends with ``suffix``. Links are not followed.
+    """Yield the files of a folder with the suffix ``suffix``: the path and the status of each. Links are not followed.
 
     Raises OSError for a folder that cannot be read.
     """

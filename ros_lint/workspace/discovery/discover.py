@@ -330,7 +330,8 @@ class _PackageFiles:
     def _not_followed(self, target: str, link_folders: tuple[str, ...]) -> str:
         """Return why a link to a folder is not followed, "" if it is followed.
 
-        ``link_folders`` are the folders that contain the link, and the folders that contain followed links on the path to it.
+        ``link_folders`` are the real paths of folders with links: the folder that contains this link, and the folders of the
+        links that were followed to get there.
         """
         if any(is_below(folder, target) for folder in link_folders):
             return "a link to a folder that contains it"

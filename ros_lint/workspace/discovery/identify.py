@@ -264,7 +264,7 @@ def _cmake_files(folder: Folder) -> Iterator[Text]:
 def _setup_cfg(folder: Folder) -> PythonProject | None:
     """Return the project in setup.cfg, None if colcon cannot use the file.
 
-    colcon cannot use a setup.cfg without a name, or next to a setup.py that must be run to get the name.
+    colcon needs a setup.cfg that sets a name, and a setup.py that need not be run to get the name.
     """
     setup_py, setup_cfg = folder.text("setup.py"), folder.text("setup.cfg")
     if setup_py is None or setup_cfg is None:

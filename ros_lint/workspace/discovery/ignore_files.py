@@ -13,7 +13,7 @@ from ros_lint.workspace.target import UnreadFile
 
 
 class Ignores(NamedTuple):
-    """The patterns of the ``.gitignore`` files of a workspace, and those of the files that cannot be read."""
+    """The patterns in the ``.gitignore`` files of a workspace, and the ``.gitignore`` files that cannot be read."""
 
     patterns: tuple[Pattern, ...]
     """Patterns in the order of git: a later pattern overrides an earlier one."""

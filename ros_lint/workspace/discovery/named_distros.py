@@ -97,7 +97,7 @@ _BRANCH = re.compile(r"ref: refs/heads/([a-z]+)(?:[-_/]|\Z)")
 
 
 def _in_branch(tree: Tree, path: str, known: Mapping[str, bool]) -> Iterator[NamedDistro]:
-    """Yield the distribution with which the name of the current branch of git begins."""
+    """Yield the distribution whose name begins the name of the current git branch: humble for ``humble-devel``."""
     for line in _lines(tree, path)[:1]:
         branch = _BRANCH.match(line)
         if branch and branch[1] in known:

@@ -106,7 +106,10 @@ class FileRoles:
         return path in self._started
 
     def serves_tests(self, path: str) -> bool:
-        """Return whether only tests of this package can include a file, because no other target does and it is not installed."""
+        """Return whether only tests of this package can include a file.
+
+        The file is then not installed, and no source outside of the tests includes it.
+        """
         return path not in self._production and path not in self._installed_headers
 
     def _role(self, path: str) -> tuple[Role, bool]:
@@ -207,7 +210,7 @@ class FileRoles:
         return frozenset([files[0] for files in map(self._own_files.by_name.get, named) if files is not None and len(files) == 1])
 
     def _siblings_are_used(self, path: str) -> bool:
-        """Return whether other files in the folder of a file, with the suffix of the file, are built or installed by name."""
+        """Return whether files with the folder and the suffix of ``path`` are built or installed by name."""
         folder, _, name = path.rpartition("/")
         return f"{folder}/*{name[name.rfind('.') :]}" in self._used_patterns and (name.endswith(".py") or self._sources_known)
 
@@ -420,9 +423,9 @@ class FileRoles:
         return modules.intersection(self._files).union(importable)
 
     def _plain_folders(self, modules: Iterable[str], packages: Iterable[str]) -> set[str]:
-        """Return the folders of ``modules`` that are not Python packages and from which no file of the package imports.
+        """Return the folders of ``modules`` that have no ``__init__.py``. Folders from which the package imports are left out.
 
-        ``packages`` are the folders of installed Python packages, which are left out.
+        ``packages`` are the folders of installed Python packages, which are also left out.
         """
         folders = {module.rpartition("/")[0] for module in modules}.difference([package.rstrip("/") for package in packages])
         plain_folders = {folder for folder in folders if f"{folder}/__init__.py" not in self._facts}

@@ -133,7 +133,7 @@ class Resolver:
         return ProviderMatch((name,)) if self.names.is_package(name) else self._unresolved(name, self.names.is_declared(name))
 
     def looked_up(self, name: str) -> ProviderMatch:
-        """Return a ProviderMatch with ``name`` as uncertain provider, for code that looks up files in an unknown package.
+        """Return the unknown package ``name``, in which code looks up files, as uncertain provider.
 
         The ProviderMatch is empty if the name exists in any distribution, may belong to a package that ros-lint cannot read, or
         is not a valid package name.
@@ -152,10 +152,11 @@ class Resolver:
         return self._unresolved(name, bool(mention) and _INTERFACES.match(mention) is not None)
 
     def _unresolved(self, name: str, is_interface: bool = False) -> ProviderMatch:
-        """Return the packages that may provide a name, if neither the workspace nor the target distribution provides it.
+        """Return the package ``name`` as provider, although neither the workspace nor the target distribution has it.
 
-        The provider is a package of another or a former distribution, or, with ``is_interface``, the package of an interface.
-        The package of an interface is certain only if the workspace declares it.
+        The result is empty unless a package of another or a former distribution has the name, or ``is_interface`` is True: the
+        name is part of the type of an interface, such as ``a_msgs/msg/B``. Such a package is certain only if the workspace
+        declares it.
         """
         resolution = self.names.resolution(name) if name else "unknowable"
         if resolution == "elsewhere":

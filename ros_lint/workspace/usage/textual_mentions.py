@@ -66,7 +66,7 @@ def find_textual_mentions(tree: Tree, package: Package, source: PackageSource, w
 
 
 def _needs_a_trace(world: World, declared: Declared) -> bool:
-    """Return whether a dependency is reported if no file of the package contains its name.
+    """Return whether a dependency is reported as unused if no file of the package contains its name.
 
     The result is True for dependencies for the build, and for test dependencies on message packages.
     """
@@ -131,7 +131,10 @@ def possibly_used(tree: Tree, package: Package, source: PackageSource, world: Wo
 
 
 def _named_by_prefix(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> frozenset[str]:
-    """Return those package names with which a type, function or macro in the C code of ``files`` begins, outside comments."""
+    """Return the package names with which identifiers in C code begin: ``rmw`` for ``rmw_request_id_t``.
+
+    The identifiers are those of types, functions and macros in ``files``, outside comments.
+    """
     result: set[str] = set()
     for path, data in files if names else ():
         for name in names:
@@ -346,8 +349,8 @@ _SEPARATOR = re.compile(rb"[-_/]|::")
 def _spellings(name: str) -> tuple[str, ...]:
     """Return the forms of a package name in code: with dashes, as a nested namespace, as an include folder.
 
-    Code inside the outer namespace omits that namespace, and libraries omit the prefix ``lib``. Conversions of tf2 are selected
-    by the types of their arguments, so only ``tf2`` is in the code.
+    Code inside the outer namespace omits that namespace, and libraries omit the prefix ``lib``. A form of ``tf2_eigen`` and
+    of similar packages is ``tf2``, because code calls the conversions of these packages as functions of ``tf2``.
     """
     spellings = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
     inner = name.partition("_")[2]

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 def is_traceless_by_name(world: World, name: str) -> bool:
     """Return whether the name of a package suggests that no file of its dependents mentions it.
 
-    The result is True for a name that is not a package of the workspace or of ROS, a rosdep key, a linter, a generator or
-    similar.
+    The result is True for a rosdep key, for the name of a linter, a generator or a similar package, and for a name that is
+    neither in the workspace nor in ROS.
     """
     return not world.is_package(name) or world.is_key(name) or name_suggests_no_trace(world, name)
 
@@ -34,7 +34,7 @@ def name_suggests_no_trace(world: World, name: str) -> bool:
 def problems_hide_uses(script: BuildScript) -> bool:
     """Return whether an error in a build script leaves unknown which packages the script uses.
 
-    A missing folder, mesh or page hides no use: Git keeps no empty folders, so a missing folder is mostly an empty folder.
+    A missing folder, mesh or documentation page hides no use. Git keeps no empty folders, so most missing folders are empty.
     """
     return any(
         problem.kind not in _HIDING_NOTHING and not (problem.kind == "missing-file" and problem.subject.endswith(_WITHOUT_USES))
