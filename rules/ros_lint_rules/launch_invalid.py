@@ -93,7 +93,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _fix(path: str, problems: Iterable[Problem]) -> Fix | None:
-    """Return the fix that renames removed keywords; None if the file has another problem."""
+    """Return the fix that renames keywords that launch no longer has; None if the launch file has a problem of another kind."""
     if any(problem.kind != "removed-keyword" for problem in problems):
         return None
     edits = dict.fromkeys(Edit(problem.span, problem.subject) for problem in problems)

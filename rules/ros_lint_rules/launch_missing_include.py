@@ -173,9 +173,9 @@ def _is_never_used(reference: LaunchReference, workspace: Workspace) -> bool:
 
 
 def _look_up(reference: LaunchReference, names_at: Mapping[Span, set[str]]) -> Iterator[Related]:
-    """Yield the earlier line of a launch file that looks up the package of a missing file, if it serves only this file.
+    """Yield the earlier line of a launch file in which the package of a missing file is looked up.
 
-    ``names_at``: the files for which each look-up of a package serves.
+    Nothing is yielded if the look-up also serves for other files. ``names_at``: the files for which each look-up serves.
     """
     place, named = reference.span, reference.package_span
     if place.path == named.path and named.line < place.line and len(names_at[named]) == 1:
@@ -337,7 +337,10 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:
-    """Return the hint that names the package which installs ``path``: ``package``, else the only other one; else ""."""
+    """Return the hint that names the package which installs ``path``; "" if no package or several packages install it.
+
+    If ``package`` itself installs ``path``, the hint names ``package`` in any case.
+    """
     owners = {
         other.name
         for other in workspace.packages

@@ -146,7 +146,7 @@ def _declares(package: Package, name: str) -> str:
 
 
 def _lacking(package: Package, workspace: Workspace) -> Iterator[tuple[str, list[LaunchReference]]]:
-    """Yield each package that launch files use without a direct or indirect run-time dependency, with the references.
+    """Yield each package that launch files use without a direct or indirect run-time dependency, with its references.
 
     Packages that another rule reports are left out.
     """
@@ -195,7 +195,7 @@ def _needs(workspace: Workspace, name: str, package: Package) -> bool:
 
 
 def _elsewhere(best: Span, others: Sequence[LaunchReference]) -> Iterator[Span]:
-    """Yield the places of the package names in ``others``: the first on each line, except for the line of ``best``."""
+    """Yield the places at which the references ``others`` name the package: one on each line, without the line of ``best``."""
     lines = {(best.path, best.line)}
     for span in [reference.package_span for reference in others]:
         if (span.path, span.line) not in lines:

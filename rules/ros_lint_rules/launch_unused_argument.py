@@ -79,7 +79,7 @@ def _is_of_launch(module: str) -> bool:
 
 
 def _replacing(file: LaunchFile, package: Package, workspace: Workspace) -> Iterator[str]:
-    """Yield the arguments of ``file`` with an empty default that another launch file of its folder declares without a default."""
+    """Yield the arguments of ``file`` that have an empty default there, but no default in another launch file of its folder."""
     resolver = launch.include_resolver(workspace)
     required = {name for other in package.launch if _folder(other) == _folder(file) for name in resolver.takes(other).required}
     for action in launch.walk_actions(file.actions):

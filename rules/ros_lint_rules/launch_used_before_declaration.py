@@ -130,8 +130,9 @@ def _read_early(
 def _questions(action: LaunchAction) -> Iterator[tuple[str, Span, bool, bool | None]]:
     """Yield each text of an action that launch evaluates: the text, its place, whether it is under a condition, and ``holds``.
 
-    The texts of a condition itself are not under this condition. ``holds`` is the result of a condition that compares a missing
-    configuration. It is None for every other text, because launch stops there (:class:`_Early`).
+    The texts of a condition itself are not under this condition. If a text belongs to a condition that compares values,
+    ``holds`` is the result of the condition without the configuration. For all other texts ``holds`` is None, because launch
+    stops if the configuration is missing.
     """
     asking = {text for condition in action.conditions if condition.equals is None for text in condition.texts}
     comparing = [condition for condition in action.conditions if condition.equals is not None]

@@ -93,7 +93,7 @@ _IMAGES = (".pgm", ".png", ".bmp")
 
 
 class _Inside(NamedTuple):
-    """The package of the workspace that a machine path leads to."""
+    """The package of the workspace to which a machine path leads. A machine path exists only on its author's machine."""
 
     package: str
     rest: str
@@ -138,7 +138,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _is_interpreter(machine: MachinePath, file: str) -> bool:
-    """Return whether a path is the interpreter in ``setup.cfg`` (``[build_scripts] executable``)."""
+    """Return whether a path in ``setup.cfg`` is that of the Python interpreter (``[build_scripts] executable``)."""
     return file == "setup.cfg" and _PYTHON.search(machine.path) is not None
 
 
@@ -202,7 +202,10 @@ def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Pa
 
 
 def _source_of_generated(machine: MachinePath, package: Package) -> str:
-    """Return the xacro file from which a file with a machine path was generated, "" if the package does not contain it."""
+    """Return the xacro file from which a file was generated, "" if the package does not contain the xacro file.
+
+    The generated file has the path ``machine``, which exists only on the machine of its author.
+    """
     name = machine.generated_from.rpartition("/")[2]
     return next((file for file in sorted(package.files) if name and file.rpartition("/")[2] == name), "")
 

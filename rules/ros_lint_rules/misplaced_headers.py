@@ -45,7 +45,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _misplaced(package: Package, wanted: build.Includes) -> Iterator[Finding]:
-    """Yield one finding for headers that are installed without the folder ``a`` of their includes in other packages: ``a/b.hpp``.
+    """Yield one finding for headers that other packages include as ``a/b.hpp``, but that are installed without the folder ``a``.
 
     ``wanted``: the includes of headers of this package in other packages.
     """

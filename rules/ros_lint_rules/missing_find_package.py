@@ -94,7 +94,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _gives_commands(name: str) -> bool:
-    """Return whether, by its name, a package only provides CMake commands and comes with the build tool."""
+    """Return whether the name of a package suggests that the package only provides CMake commands: ``ament_cmake_python``."""
     return "cmake" in name or name.startswith(("ament_", "rosidl_")) or name.endswith(names.VENDOR)
 
 

@@ -65,7 +65,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
-    """Return the finding for several packages below a folder that is one plain package because of its build script."""
+    """Return the finding for several packages that colcon ignores, because a folder around them counts as one package."""
     all_names = names.shorten_list(nested.name for nested in lost)
     return Finding(
         f"colcon ignores {all_names}, because they are inside {_outer(package)}; {_remedy(package, lost, 'them')}",
@@ -107,10 +107,10 @@ def _outer(package: Package) -> str:
 
 
 def _remedy(package: Package, inside: list[Manifest], it: str) -> str:
-    """Return the remedy for packages that colcon ignores; ``it`` is their pronoun, "it" or "them".
+    """Return the remedy for packages that colcon ignores. ``it`` is the pronoun for them in the text, "it" or "them".
 
-    If the build script that hides them is in the root folder, the remedy also names the option --base-paths of colcon, because
-    that script may be intended.
+    If the package around them is in the root folder, the remedy also names the option --base-paths of colcon, because the
+    build script in the root folder may be intended.
     """
     folders = dict.fromkeys(folder for nested in inside for folder in _between(package, nested)[:1])
     place = "its folder" if it == "it" else "their folders"

@@ -70,7 +70,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _of_other_package(plugin: str, workspace: Workspace) -> str:
-    """Return the message for a described class that another package registers."""
+    """Return the message for a class in a plugin description if only another package registers the class."""
     owner = _registering_packages(workspace)[plugin]
     described = {entry.type for file in owner.built.files.plugin_files for library in file.libraries for entry in library.classes}
     remedy = (

@@ -78,7 +78,7 @@ def _unprovided_calls(package: Package, name: str, provider: str) -> list[Call]:
 
 
 def _commands(name: str, callers: Iterable[tuple[Package, list[Call]]], workspace: Workspace) -> Iterator[Finding]:
-    """Yield an error for each package that calls a command which the chosen distribution does not have."""
+    """Yield an error for each package that calls a command which the distribution chosen by the user does not have."""
     for package, calls in callers:
         first, *others = calls
         yield Finding(
@@ -92,7 +92,10 @@ def _commands(name: str, callers: Iterable[tuple[Package, list[Call]]], workspac
 
 
 def _if_newer(name: str, callers: Sequence[tuple[Package, list[Call]]], workspace: Workspace) -> Iterator[Finding]:
-    """Yield one info about all packages that call a command which the assumed distribution does not have."""
+    """Yield one info about all packages that call a command which the distribution does not have.
+
+    The user has not chosen the distribution, so the packages may be built for an older one.
+    """
     named = {named.distro for named in workspace.named_distros}
     if not callers or (named and not named & _REMOVED[name][1]):
         return

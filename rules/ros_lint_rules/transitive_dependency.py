@@ -118,12 +118,13 @@ def _is_command(need: dependencies.Need) -> bool:
 
 
 def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, path: Sequence[str]) -> bool:
-    """Return whether packages rarely declare the package of ``need``, because another package exists in order to provide it.
+    """Return whether packages rarely declare a needed package (``need``), because a declared package exists to provide it.
 
-    That package is the first one of ``path``, the dependencies from a declared name to the needed package.
+    ``path`` leads from the declared package to the needed one. The result is True for
 
-    True for parts of build tools, tools that run tests, linters, packages that launch files use through a metapackage, and
-    launch itself in launch files.
+    - parts of build tools, tools that run tests, and linters,
+    - packages that launch files use through a metapackage,
+    - launch itself in launch files.
     """
     carrier, is_direct = path[0], len(path) == 2
     if need.name == _CORE or (need.name == _BUILD_TOOL and carrier.startswith(f"{_BUILD_TOOL}_")):

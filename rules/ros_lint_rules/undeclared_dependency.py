@@ -242,7 +242,10 @@ def _misplaced_names(package: Package, workspace: Workspace) -> frozenset[str]:
 
 
 def _provided_elsewhere(package: Package, workspace: Workspace, name: str) -> str:
-    """Return a remark if declared dependencies provide ``name`` in other distributions, and none was chosen; else ""."""
+    """Return a remark about the distributions in which declared dependencies provide ``name``; "" if there are none.
+
+    The result is also "" if the user chose the distribution.
+    """
     if workspace.target.explicit:
         return ""
     distros = dependencies.distros_providing(package, workspace, name)
@@ -257,7 +260,7 @@ def _is_conditional(need: dependencies.Need) -> bool:
 
 
 def _is_unreached(package: Package, need: dependencies.Need) -> bool:
-    """Return whether only modules that nothing in this package starts or imports need the package."""
+    """Return whether the package is needed only in modules that nothing in this package starts or imports."""
     uses = [use for use in need.uses if use.certain] or need.uses
     return all(_is_in_unreached_module(package, use) for use in uses)
 
@@ -277,7 +280,10 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 
 def _is_of_environment(need: dependencies.Need) -> bool:
-    """Return whether the package is only needed for environment variables: it is ros_environment, which ros_core installs."""
+    """Return whether a needed package is used only for its environment variables.
+
+    The package is then ros_environment, which ros_core installs.
+    """
     return all(use.what.startswith("$ENV{") for use in need.uses)
 
 
@@ -318,7 +324,10 @@ def _is_left_to_pip(package: Package, workspace: Workspace, need: dependencies.N
 
 
 def _removal(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
-    """Return the message that advises to remove an unused find_package(), "" if the package may use the needed package."""
+    """Return the message that advises to remove an unneeded find_package() of a package that is not declared (``need``).
+
+    The result is "" if ``package`` may use what the find_package() finds.
+    """
     if call := _leftover(package, workspace, need):
         return f"package.xml does not declare '{need.name}', and nothing in this package uses it; remove {call}"
     if call := _unused_find(package, workspace, need):
@@ -330,9 +339,9 @@ def _removal(package: Package, workspace: Workspace, need: dependencies.Need) ->
 
 
 def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
-    """Return the find_package() to remove, as text for a message, if a package with only interfaces finds a package in vain.
+    """Return the unneeded find_package() of a package that only generates interfaces, as text for a message.
 
-    The result is "" if the package builds other targets, or may use the needed package.
+    The result is "" if the package builds other targets, or may use the found package (``need``).
     """
     products = package.built.products
     if not products.interfaces or any(target.kind != "other" for target in products.targets):
@@ -342,9 +351,10 @@ def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -
 
 
 def _unused_find(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
-    """Return the find_package() to remove, as text for a message, if no code of a package with targets uses what it finds.
+    """Return the find_package() of a package that no code uses, as text for a message.
 
-    The build script may link the found package. The result is "" if code may use it, or if anything else may need it.
+    The build script may link the found package (``need``). The result is "" if code may use it, if anything else may need it,
+    or if ``package`` builds no targets.
     """
     if workspace.unread() or not dependencies.is_build_visible(package) or not package.built.products.targets:
         return ""
@@ -367,9 +377,9 @@ def _calls(name: str, need: dependencies.Need) -> str:
 def _brought(
     package: Package, workspace: Workspace, need: dependencies.Need, all_needs: ByName[dependencies.Need]
 ) -> tuple[Consequence, ...]:
-    """Return the findings that are hidden beside the finding for ``need``, an undeclared package.
+    """Return the findings that are hidden because the finding for ``need``, an undeclared package, explains them.
 
-    They are about other undeclared packages that ``need`` depends on. These need no tag of their own once ``need`` is declared.
+    They are about undeclared packages on which ``need`` depends. These packages need no tag once ``need`` is declared.
     """
     closure = workspace.world.closure((need.name,))
     others = all_needs.named(*closure.names) if len(closure) < len(all_needs) else all_needs
@@ -383,7 +393,10 @@ def _brought(
 
 
 def _needs_no_tag(package: Package, workspace: Workspace, other: dependencies.Need, need: dependencies.Need) -> bool:
-    """Return whether packages that declare the package of ``need`` rarely declare its dependency, the package of ``other``."""
+    """Return whether the needed package ``other`` needs no tag of its own once the package ``need`` is declared.
+
+    This holds if ``need`` depends on ``other``, and packages that declare ``need`` rarely declare ``other``.
+    """
     serves_more = bool(other.role & ~need.role)
     if dependencies.is_found_by_cmake(other) or (serves_more and other.role is not Role.TEST):
         return False
@@ -437,7 +450,10 @@ def _suggestion(name: str, workspace: Workspace) -> str:
 
 
 def _module_of_declared_name(package: Package, name: str, use: Use) -> str:
-    """Return the module that ``use`` imports from package ``name`` if a different, declared package has its name; else ""."""
+    """Return the module that ``use`` imports from package ``name`` if the module is called like another, declared package.
+
+    The result is "" if it is not, or if ``use`` is not an import.
+    """
     module = use.name.partition(".")[0] if use.via == "import" else ""
     return module if module != name and package.tags(module) else ""
 

@@ -188,7 +188,10 @@ def _may_export(package: Package, target: str) -> bool:
 
 
 def _may_rename_targets(package: Package) -> bool:
-    """Return whether exported targets may have other names, or the package installs its own CMake configuration file."""
+    """Return whether targets may be exported under names that they do not have in the package.
+
+    The result is also True if the package installs its own CMake configuration file.
+    """
     calls = package.calls("ament_export_targets", "install", "export", "set_target_properties", "set_property", anywhere=True)
     if any("NAMESPACE" in call.texts or "EXPORT_NAME" in call.texts for call in calls):
         return True

@@ -120,8 +120,8 @@ def _is_certain(lack: Lack) -> bool:
 def _together(lacks: Sequence[Lack], linked: Sequence[Lack], of_system: tuple[str, ...]) -> Lack:
     """Return one finding for all packages that a single ament_export_dependencies() has to export.
 
-    ``linked`` are the members of ``lacks`` whose packages are linked, not included. ``of_system`` are names of find_package()
-    outside of ROS that exported libraries link as well.
+    ``lacks``: the separate findings. ``linked``: those of the findings that are about linked packages, not about includes.
+    ``of_system``: names of find_package() outside of ROS that exported libraries link as well.
     """
     (first_names, first), *others = lacks
     if not (others or of_system):
@@ -156,8 +156,8 @@ def _exported(script: BuildScript) -> set[str]:
 def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[Lack]:
     """Yield findings about unexported packages whose targets an exported library links publicly.
 
-    Each finding comes with the names of these packages, () if it is uncertain that dependents do not find them. ``reported``:
-    packages that are left out.
+    Each finding comes with the CMake names of the packages. The names are () if dependents may find the packages
+    nevertheless. ``reported``: packages that are left out.
     """
     script = package.script
     if script is None or not _is_seen(package):
@@ -224,7 +224,10 @@ def _without_components(package: Package, workspace: Workspace) -> Iterator[Find
 
 
 def _is_without(workspace: Workspace, all_names: Iterable[str], keys: re.Pattern[str]) -> bool:
-    """Return whether no package with these CMake names depends on a name that matches ``keys``; False if that is unknown."""
+    """Return whether packages certainly do not depend, directly or indirectly, on a rosdep key that matches ``keys``.
+
+    ``all_names``: the CMake names of the packages.
+    """
     packages = [provider for name in all_names for provider in workspace.world.by_cmake(name).names or (name,)]
     closure = workspace.world.closure(packages)
     return closure.complete and not any(keys.match(key) for key in closure)
@@ -286,9 +289,9 @@ _TARGET = re.compile(r"([\w-]+)::[\w:-]+\Z|\$\{(\w+)_TARGETS\}\Z")
 
 
 def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
-    """Yield a pair for each unexported package that installed headers include: a tuple with its CMake name, and the finding.
+    """Yield a finding about each unexported package that installed headers include.
 
-    The tuple is () if the finding is uncertain.
+    Each finding comes with the CMake name of the package in a tuple. The tuple is () if the finding is uncertain.
     """
     script = package.script
     if script is None or not _is_seen(package):
@@ -382,7 +385,10 @@ def _internal_sources(package: Package, script: BuildScript) -> frozenset[str]:
 
 
 def _is_written_out(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether a package's include directories are exported or public by their variable, as in ``${x_INCLUDE_DIRS}``."""
+    """Return whether the include directories of the package ``name`` are exported or public.
+
+    They are if a call names their variable, e.g. ``ament_export_include_directories(${x_INCLUDE_DIRS})``.
+    """
     calls = package.calls("target_include_directories", "ament_export_include_directories", anywhere=True)
     words = [word for call in calls if "PRIVATE" not in call.texts for word in call.texts]
     cmake_names = [match[1] for word in words if (match := _DIRECTORIES.fullmatch(word))]
@@ -393,7 +399,7 @@ _DIRECTORIES = re.compile(r"\$\{(\w+?)_INCLUDE_DIRS?\}")
 
 
 def _public_includes(package: Package, workspace: Workspace, script: BuildScript) -> dict[str, list[Use]]:
-    """Return the ROS packages, and libraries with vendor packages, that installed headers include, with these includes."""
+    """Return the includes in installed headers by included package: a ROS package, or a library with a vendor package."""
     is_package = workspace.world.is_package
     installed = _installed(script)
     finds = dependencies.names_searched(package, script)
@@ -410,7 +416,7 @@ def _public_includes(package: Package, workspace: Workspace, script: BuildScript
 def _is_unavailable(package: Package, workspace: Workspace, use: Use) -> bool:
     """Return whether a header belongs to a declared package that is neither in the workspace nor in the distribution.
 
-    Such a package is only known for headers of interfaces, and for headers of packages of other distributions.
+    The header must be included by a path that begins with the name of the package: ``arm_msgs/msg/joint.hpp``.
     """
     unavailable = workspace.world.resolution(use.package) in ("unknown", "elsewhere")
     return unavailable and use.name.startswith(f"{use.package}/") and bool(package.declares(use.package) & ~Role.TEST)

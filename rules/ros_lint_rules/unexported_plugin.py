@@ -65,7 +65,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _uninstalled(package: Package, plugins: build.Plugins) -> Iterator[Finding]:
-    """Yield a finding for each plugin description that is not exported, if a registered class is in no installed description."""
+    """Yield a finding for each unexported plugin description with a registered class that no installed description lists."""
     exported = {text for call in package.calls(build.EXPORTING_PLUGINS, anywhere=True) for text in call.texts}
     script = package.built
     installed = [plugin for plugin in script.files.plugin_files if plugin.path in script.products.installed]
@@ -158,7 +158,10 @@ def _unexported(package: Package, workspace: Workspace, plugins: build.Plugins) 
 
 
 def _unloaded_base(registered: Sequence[Registration], workspace: Workspace) -> str:
-    """Return the base class of the registered classes if a workspace package has it and nothing loads its plugins, else ""."""
+    """Return the common base class of registered classes if it is in a workspace package and nothing loads its plugins.
+
+    The result is "" otherwise.
+    """
     bases = {macro.base for macro in registered}
     base = bases.pop()
     owner = base.partition("::")[0]

@@ -77,9 +77,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _grouped(missing: Mapping[str, list[str]], kept: set[str]) -> dict[str, list[str]]:
-    """Return the launch files that are not installed by folder: files of subfolders are grouped under the outermost folder.
+    """Return the uninstalled launch files, grouped by folder. Files of subfolders are in the group of the outermost folder.
 
-    ``kept``: folders with installed files. Files of their subfolders are not grouped under them.
+    ``kept``: folders with installed files. Files of their subfolders form groups of their own.
     """
     groups: dict[str, list[str]] = {}
     for folder in sorted(missing):

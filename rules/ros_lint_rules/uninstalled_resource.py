@@ -288,9 +288,9 @@ def _looked_up_elsewhere(package: Package) -> frozenset[tuple[str, str]]:
 
 
 def _makes_nothing(package: Package, script: BuildScript) -> bool:
-    """Return whether the script builds and installs nothing, so that the package can only exist for its files.
+    """Return whether the build script builds and installs nothing, so that the package can only exist for its files.
 
-    Packages named after tests or examples may use their files in the sources.
+    The result is False for a package named after tests or examples, because it may use its files in the sources.
     """
     return script.cmake.makes_nothing and not files.is_auxiliary(f"{package.name.replace('_', '/')}/")
 

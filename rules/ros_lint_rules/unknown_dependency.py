@@ -228,9 +228,9 @@ def _of_folder(unresolved: dependencies.UnresolvedDependency, workspace: Workspa
 
 
 def _caller(by: str, key: str) -> str:
-    """Return the tool that uses the declared name for the rosdep key ``key``, such as "pip" or "find_package"; "" if unknown.
+    """Return the tool to which a declared name belongs, such as "pip" or "find_package"; "" if unknown.
 
-    ``by``: the kind of the declared name, e.g. "cmake" for a name of find_package().
+    ``by``: the kind of the declared name, e.g. "cmake" for a name of find_package(). ``key``: the rosdep key to declare instead.
     """
     return "pip" if by == "system" and key.endswith("-pip") else _CALLED_SO_BY.get(by, "")
 
@@ -261,8 +261,8 @@ def _rename(
 ) -> tuple[Edit, ...]:
     """Return the edits that write ``name`` into every tag of a dependency.
 
-    If the package has equal tags with ``name`` already, the edits remove the tags instead. The result is () if it has different
-    tags with ``name``. ``twin``: another dependency of the package that is renamed to ``name``.
+    If <depend> or the same kinds of tags declare ``name`` already, the edits remove the tags of the dependency instead. The
+    result is () if other kinds of tags declare ``name``. ``twin``: another dependency of the package that is renamed to ``name``.
     """
     package = unresolved.package
     have = {declared.depend.tag for declared in package.tags(name)}

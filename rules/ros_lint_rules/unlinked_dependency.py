@@ -96,7 +96,10 @@ def _includes(package: Package, wanted: frozenset[str]) -> dict[str, list[Use]]:
 def _unlinked(
     package: Package, workspace: Workspace, target: BuildTarget, linked: list[str], needed: dict[str, list[Use]]
 ) -> Iterator[Finding]:
-    """Yield findings for packages whose headers the sources of a target include but that the target does not link."""
+    """Yield a finding for each package that a target does not link, although its sources include headers of the package.
+
+    ``needed``: the includes of these headers, by package.
+    """
     closure = dependencies.partial_closure(workspace, linked)
     alone = not any(name in closure for name in workspace.by_name)
     for name, uses in needed.items():

@@ -186,7 +186,10 @@ def _lacks_programs(package: Package, script: BuildScript) -> bool:
 
 
 def _is_never_found(package: Package, script: BuildScript, workspace: Workspace, name: str) -> bool:
-    """Return whether CMake does not look for a released build tool that only find_package() makes available."""
+    """Return whether the released build tool ``name`` is of no use, because the build script has no find_package() for it.
+
+    This concerns build tools of build type ament_cmake: only find_package() makes them available.
+    """
     released = workspace.world.released(name)
     return (
         package.builds_with == "ament_cmake"

@@ -153,15 +153,14 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
 
 
 def _is_for_all(declared: Declared) -> bool:
-    """Return whether a tag covers every use, or may do so because of its condition."""
+    """Return whether a tag covers every use, or may do so: it is <depend>, or it has a condition."""
     return declared.depend.tag == "depend" or not declared.always
 
 
 def _exported_uses(package: Package, need: dependencies.Need, *, assume_installed: bool) -> Iterator[Use]:
-    """Yield the uses of a needed package, with roles (``Role``) that fit the headers that are installed.
+    """Yield the uses of a needed package. An include in a header that is not installed is yielded without the role EXPORT.
 
-    Uses in headers that no build installs are yielded without the role EXPORT, unless ``assume_installed``. Uses in headers that
-    only some builds install are left out.
+    With ``assume_installed``, such an include keeps the role. Includes in headers that only some builds install are left out.
     """
     script = package.script
     installed: dict[str, bool] | None = {} if script is None or package.hidden(Facet.LIBRARIES) else None
@@ -208,7 +207,10 @@ def _once_installed(lacking: _Lack | None) -> _Lack | None:
 
 
 def _given(tags: Sequence[Declared], name: str = "") -> Role:
-    """Return the roles (build, run, export, test) that ``tags`` cover together; with ``name`` only its tags count."""
+    """Return the roles (build, run, export, test) that ``tags`` cover together.
+
+    With ``name``, only the tags of the dependency ``name`` count.
+    """
     role = Role(0)
     for declared in tags:
         if name in ("", declared.name):
@@ -217,7 +219,7 @@ def _given(tags: Sequence[Declared], name: str = "") -> Role:
 
 
 def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags: Sequence[Declared]) -> _Lack | None:
-    """Return the first kind of use that neither the tags of the needed package nor another dependency covers, else None."""
+    """Return the first kind of use of a needed package that its ``tags`` and other dependencies do not cover; else None."""
     given = _given(tags)
 
     def is_used(role: Role) -> bool:

@@ -53,9 +53,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _for_itself(package: Package, call: Call, bases: Collection[str], workspace: Workspace) -> Iterator[Finding]:
-    """Yield the finding for a description that is exported for its own package, although nothing loads plugins of the package.
+    """Yield the finding for a plugin description that a package exports for itself, although nothing loads its plugins.
 
-    All its base classes (``bases``) belong to one other package.
+    All base classes in the description (``bases``) belong to one other package.
     """
     owners = {base.partition("::")[0] for base in bases}
     asked = {loader.package for loaders in build.plugin_loaders(workspace).values() for loader in loaders}
