@@ -202,7 +202,8 @@ def _with_prefix(ordered: list[str], prefix: str) -> list[str]:
 def _is_slip(name: str, other: str) -> bool:
     """Return whether two names differ by one wrong letter.
 
-    The word with the letter must be long, because short words such as arm and art are often both right.
+    The word with the letter must be long, unless the letter is a plural s, because short words such as arm and art are often
+    both right.
     """
     longer, shorter = (name, other) if len(name) >= len(other) else (other, name)
     if name == other or len(longer) - len(shorter) > 1:
