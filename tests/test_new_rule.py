@@ -41,8 +41,8 @@ def test_the_bounds_of_ros_lint_follow_semantic_versioning(version: str, expecte
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["address"], "new-rule: 'address' does not begin with a word of your own; write a name such as 'acme-address', "),
-        (["ros-x", "--code", "X1"], "write a name such as 'acme-x', because later versions of ros-lint may use the name"),
+        (["address"], "new-rule: a later version of ros-lint may have a rule 'address'; begin the name with a word of your own"),
+        (["ros-x", "--code", "X1"], "begin the name with a word of your own, such as 'acme-x'"),
         (["ros-x"], "the code 'ROS001' of its rule 'ros-x' begins with ROS, which is reserved for ros-lint"),
         (["Acme-X"], "the rule name 'Acme-X' is invalid; write words with hyphens, such as 'old-name'"),
         (["../acme-x"], "the rule name '../acme-x' is invalid"),

@@ -155,11 +155,14 @@ def test_a_plugin_adds_rules(demo: Path, tmp_path: Path) -> None:
     file.write_text("plugins = true\n")
     process = run(site, demo, "--format", "concise")
     assert (process.returncode, "[mine]" in process.stdout) == (1, False)
-    assert f"ros-lint: {file}:1: plugins has no effect in a file because it loads code; use --plugins" in process.stderr
-    assert f"{file}:1: plugins has no effect" in run(site, "order", demo).stderr
+    assert (
+        f"ros-lint: {file}:1: 'plugins' has no effect in a configuration file, because it loads code; use --plugins"
+        in process.stderr
+    )
+    assert f"{file}:1: 'plugins' has no effect" in run(site, "order", demo).stderr
     file.write_text("plugins = true\nselect = ['mine']\n")
     process = run(site, demo)
-    assert f"{file}:1: plugins has no effect" in process.stderr
+    assert f"{file}:1: 'plugins' has no effect" in process.stderr
     assert "unknown rule 'mine'" in process.stderr
 
 

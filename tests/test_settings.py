@@ -121,9 +121,7 @@ def test_a_file_cannot_enable_plugins(tmp_path: Path, value: str) -> None:
     result = settings(tmp_path, f'distro = "humble"\nplugins = {value}\n')
     assert (result["plugins"], result.origin("plugins"), result["distro"]) == (False, "default", ("humble",))
     place = f"{tmp_path}/ros-lint.toml:2"
-    assert result.warnings == (
-        f"{place}: plugins has no effect in a file because it loads code; use --plugins on the command line",
-    )
+    assert result.warnings == (f"{place}: 'plugins' has no effect in a configuration file, because it loads code; use --plugins",)
     result = settings(tmp_path, said={"plugins": True})
     assert (result["plugins"], result.origin("plugins")) == (True, "--plugins")
     assert "plugins" not in schema()["properties"]

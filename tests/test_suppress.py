@@ -299,7 +299,7 @@ def test_the_name_of_a_divided_rule_names_the_new_rules(name: str) -> None:
     (unknown,) = apply_suppressions([], collect(Text("a.py", f"x  # ros-lint: ignore[{name}]\n")), RULES, NAMES).use.unknown
     assert unknown.suggestion == ""
     assert unknown.fate.startswith("was divided into 'launch-missing-argument', ")
-    assert unknown.fate.endswith(" and 'launch-unused-argument'; name those that you mean")
+    assert unknown.fate.endswith(" and 'launch-unused-argument'; name the rules that you mean")
 
 
 def test_a_suppression_of_a_rule_that_did_not_run_is_not_unused() -> None:

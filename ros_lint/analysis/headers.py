@@ -73,7 +73,7 @@ def own_headers(package: Package, workspace: Workspace) -> OwnHeaders | None:
 
 def related_includes(includes: Includes) -> tuple[Related, ...]:
     """Return the places of the first four includes, as related places of a finding."""
-    return first_related(Related(f"included in '{other.name}'", use.span) for other, use in includes)
+    return first_related(Related(f"'{use.name}' is included in '{other.name}'", use.span) for other, use in includes)
 
 
 _GAZEBO = re.compile(r"(?:gazebo|gz|ignition)(?!.*_msgs$)", re.IGNORECASE)

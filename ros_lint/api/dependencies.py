@@ -13,7 +13,7 @@ from ros_lint.analysis.dependencies.find_package import (
 )
 from ros_lint.analysis.dependencies.load_bearing import LostProvision, needed_transitively, unused_find_packages
 from ros_lint.analysis.dependencies.misplaced import Misplaced, misplaced
-from ros_lint.analysis.dependencies.needs import Need, is_found_by_cmake, needs, optional_needs
+from ros_lint.analysis.dependencies.needs import Need, is_found_by_cmake, needs, optional_needs, use_note
 from ros_lint.analysis.dependencies.remedy import (
     Remedy,
     availability_remark,
@@ -129,6 +129,7 @@ __all__ = [
     "unresolved",
     "unused_find_packages",
     "usage_is_visible",
+    "use_note",
     "used_names",
     "wrong_name_explains",
 ]

@@ -146,7 +146,7 @@ def read(path: str) -> tuple[dict[str, Any], tuple[str, ...], str]:
 
 
 def _without_effect(path: str, text: str, name: str) -> str:
-    return f"{_place(path, text, name)}: {name} has no effect in a file because it loads code; use --{name} on the command line"
+    return f"{_place(path, text, name)}: '{name}' has no effect in a configuration file, because it loads code; use --{name}"
 
 
 def _has_table(path: str) -> bool:

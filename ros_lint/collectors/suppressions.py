@@ -83,7 +83,7 @@ def _problem(mark: re.Match[str], leading: bool) -> str | None:
     if not (mark["names"] or "").replace(",", "").strip():
         return f"this suppression names no rule; {_HOW}"
     if mark["word"] == "ignore-file" and not leading:
-        return "ignore-file only works in the first comments of a file; move it there, or use ignore"
+        return "'ros-lint: ignore-file' only works in the first comments of a file; move it there, or write 'ros-lint: ignore'"
     return ""
 
 

@@ -23,7 +23,7 @@ class FormerRule(NamedTuple):
         *others, last = (f"'{name}'" for name in self.successors or ("",))
         if not others:
             return "was removed; delete its name"
-        return f"was divided into {', '.join(others)} and {last}; name those that you mean"
+        return f"was divided into {', '.join(others)} and {last}; name the rules that you mean"
 
 
 FORMER = (

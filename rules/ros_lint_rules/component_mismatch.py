@@ -112,7 +112,7 @@ def _without_macro(component: Component, alike: list[Registration]) -> Finding:
     )
     place = component.span.inner(component.name) if len(alike) == 1 else None
     fix = Fix(f"write '{alike[0].name}'", (Edit(place, alike[0].name),)) if place else None
-    related = first_related(Related("the source registers this class", macro.span) for macro in alike)
+    related = first_related(Related(f"a source registers '{macro.name}' here", macro.span) for macro in alike)
     subject = alike[0].name if alike else component.name
     return Finding(f"no source registers the component '{component.name}'{hint}", component.span, subject, related, fix)
 

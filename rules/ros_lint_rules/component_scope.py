@@ -39,7 +39,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         f"ament index; register {them} in the top CMakeLists.txt, outside functions",
         first.span,
         first.name,
-        first_related(Related("also registered in a function or subfolder", other.span) for other in others),
+        first_related(Related(f"'{other.name}' is also registered in a function or subfolder", other.span) for other in others),
         confidence=Confidence.MEDIUM if first.conditional else Confidence.HIGH,
     )
 

@@ -48,7 +48,10 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             here.span,
             " -> ".join(around),
             (
-                *(Related(f"remove this {_named(reason)}, too", reason.span) for reason in rest),
+                *(
+                    Related(f"'{anchor[0]}' also depends on '{anchor[1]}' by {_named(reason)}; remove this, too", reason.span)
+                    for reason in rest
+                ),
                 *(related for edge in edges if edge != anchor for related in _reasons(package_graph, edge, knot)),
                 *(related for edge in knot.cut if edge not in edges for related in _reasons(package_graph, edge, knot)),
             ),

@@ -67,7 +67,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
                 fix = Fix.of(edits.cmake.LINKED, *edits.cmake.link_to_targets(calls, workspace), safe=False)
             elif name == "ament_export_interfaces":
                 fix = Fix("call ament_export_targets()", tuple(Edit(call.name_span, "ament_export_targets") for call in calls))
-            related = first_related(Related("also called here", call.name_span) for call in others)
+            related = first_related(Related(f"{name}() is also called here", call.name_span) for call in others)
             yield Finding(f"{name}() is deprecated; {instead}", first.name_span, name, related, fix)
     dashed = [problem for problem in script.problems if problem.kind == "dashed-key"]
     if dashed:
@@ -81,7 +81,7 @@ def _dashed(keys: Sequence[Problem]) -> Finding:
     fix = Fix(f"write {better}", tuple(Edit(key.span, key.subject.replace("-", "_")) for key in keys))
     dashed = " and ".join(f"'{key}'" for key in dict.fromkeys(key.subject for key in keys))
     what = f"the keys {dashed} are" if others else f"the key {dashed} is"
-    related = first_related(Related("also deprecated", key.span) for key in others)
+    related = first_related(Related(f"the key '{key.subject}' is also deprecated", key.span) for key in others)
     return Finding(f"{what} deprecated; write {better}", first.span, first.subject, related, fix)
 
 

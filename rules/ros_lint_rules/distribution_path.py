@@ -83,7 +83,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{path}' {where}; {_remedy(leads, first, package)}",
             first.span,
             path,
-            first_related(Related("also named here", place.span) for place in others),
+            first_related(Related(f"'{path}' is also named here", place.span) for place in others),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
         )
 

@@ -32,11 +32,12 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         fix = None
         if earlier.name == call.name and not earlier.args:
             fix = Fix(f"remove the first {earlier.name}()", (Edit(earlier.extent, ""),), safe=False)
+        again = "again" if earlier.name == call.name else f"after {earlier.name}()"
         yield Finding(
-            f"{call.name}() is called after {earlier.name}(), but only one call is allowed; keep only the last one",
+            f"{call.name}() is called {again}, but only one call is allowed; keep only the last one",
             call.name_span,
             call.name,
-            (Related("the first call", earlier.name_span),),
+            (Related(f"the first call of {earlier.name}()", earlier.name_span),),
             fix,
         )
 

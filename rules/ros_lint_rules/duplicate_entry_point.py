@@ -37,7 +37,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
                 f"entry point '{entry.name}' is already defined as '{earlier.target}'; setuptools stops at a second definition: "
                 f"{change} one of them"
             )
-            yield Finding(message, entry.span, entry.name, (Related("the first definition", earlier.span),))
+            yield Finding(message, entry.span, entry.name, (Related(f"the first definition of '{entry.name}'", earlier.span),))
 
 
 RULE = Rule(

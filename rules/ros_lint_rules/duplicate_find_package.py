@@ -30,7 +30,8 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         earlier = first.setdefault(call.texts, call)
         if earlier is not call:
             message = f"find_package({call.texts[0]}) was already called with the same arguments; remove one of the two calls"
-            yield Finding(message, call.name_span, call.texts[0], (Related("the first call", earlier.name_span),))
+            related = Related(f"the first call of find_package({call.texts[0]})", earlier.name_span)
+            yield Finding(message, call.name_span, call.texts[0], (related,))
 
 
 RULE = Rule(

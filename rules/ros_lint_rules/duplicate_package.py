@@ -49,7 +49,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             "an empty file COLCON_IGNORE into its folder",
             first.span,
             name,
-            tuple(Related(f"another '{name}'", package.span) for package in others),
+            tuple(Related(f"another package '{name}'", package.span) for package in others),
             confidence=Confidence.MEDIUM if _are_built_separately(same) else Confidence.HIGH,
             package=first.name,
         )

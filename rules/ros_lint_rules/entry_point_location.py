@@ -52,6 +52,9 @@ from ros_lint.api import (
     names,
 )
 
+_SET = "set the folder of programs in setup.cfg"
+"""Title of the fix if setup.cfg exists."""
+
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     script = package.script
@@ -83,8 +86,10 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         f"{'write' if exists else 'add a setup.cfg with'} install_scripts=$base/lib/{package.name} under [install]",
         config if exists else nodes[0].span,
         "setup.cfg",
-        first_related(Related("this entry point", entry.span) for entry in nodes[0 if exists else 1 :]),
-        Fix.of("add the missing settings to setup.cfg" if exists else "add setup.cfg", *changes),
+        first_related(
+            Related(f"entry point '{entry.name}' is defined here", entry.span) for entry in nodes[0 if exists else 1 :]
+        ),
+        Fix.of(_SET if exists else "add a setup.cfg that sets the folder of programs", *changes),
         Confidence.HIGH if sure else Confidence.MEDIUM,
     )
 
@@ -101,8 +106,8 @@ def _without_symlinks_only(package: Package, inside: Container[str]) -> Iterator
             f"write script_dir=$base/lib/{package.name} under [develop], too",
             folders["install.install_scripts"],
             "setup.cfg",
-            first_related(Related("this entry point", entry.span) for entry in entries),
-            Fix.of("add the missing setting to setup.cfg", *edits.setup_py.programs_to(script, package.name)),
+            first_related(Related(f"entry point '{entry.name}' is defined here", entry.span) for entry in entries),
+            Fix.of(_SET, *edits.setup_py.programs_to(script, package.name)),
             severity=Severity.WARNING,
         )
 

@@ -86,7 +86,7 @@ def _lacking(
             f"entry point '{entry.name}': '{module.path}' does not define '{first}'{hint}",
             entry.span,
             entry.name,
-            (Related("the module", package.start_of(module.path)),),
+            (Related(f"{module.path} does not define '{first}'", package.start_of(module.path)),),
         )
 
 

@@ -44,7 +44,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         "call it in the top CMakeLists.txt, outside functions",
         first.span,
         first.name,
-        first_related(Related("has no effect here either", call.span) for call in others),
+        first_related(Related(f"{call.name}() has no effect here either", call.span) for call in others),
         explains=() if _exports_elsewhere(package) else (Consequence("unexported-dependency"), Consequence("unexported-headers")),
     )
 

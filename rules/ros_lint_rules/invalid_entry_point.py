@@ -46,7 +46,7 @@ def _malformed(script: BuildScript, entry: EntryPoint) -> Finding:
         gaps = [
             Edit(text.span, ",") for text in script.python.editable_texts if text.kind == "gap" and entry.span.covers(text.span)
         ]
-        return Finding(message, entry.span, entry.name, fix=Fix.of("add the missing comma", *gaps))
+        return Finding(message, entry.span, entry.name, fix=Fix.of("add a comma between the two entries", *gaps))
     if entry.target.rstrip().endswith("()"):
         message = f"the target of entry point '{entry.name}' ends with (); write {entry.target.rstrip()[:-2]}"
         return Finding(message, entry.span, entry.name, fix=_without_call(entry))
@@ -61,7 +61,7 @@ def _without_call(entry: EntryPoint) -> Fix | None:
     if span.line != span.end_line or not 0 <= blanks <= 2:  # around the equals sign
         return None
     place = span._replace(column=span.end_column - 3, end_column=span.end_column - 1)
-    return Fix("remove the ()", (Edit(place, ""),))
+    return Fix(f"write {entry.target.rstrip()[:-2]}", (Edit(place, ""),))
 
 
 RULE = Rule(

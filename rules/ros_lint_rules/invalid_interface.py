@@ -55,7 +55,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         for problem in file.problems if path in sources else ():
             fix = None
             if problem.instead is not None:
-                title = f"write '{problem.instead}'" if problem.instead else "remove this text"
+                title = f"write '{problem.instead}'" if problem.instead else "remove the characters that rosidl rejects"
                 fix = Fix(title, (Edit(problem.span, problem.instead),))
             yield Finding(problem.message, problem.span, path, fix=fix)
 

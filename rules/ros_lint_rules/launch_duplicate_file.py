@@ -59,9 +59,9 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 files.file_start(sources[0]),
                 name,
                 tuple(
-                    Related("this installs it again", place.span)
+                    Related(f"'{name}' is installed again here", place.span)
                     if source == sources[0]
-                    else Related("the other file", files.file_start(source))
+                    else Related(f"this file is also installed as '{name}'", files.file_start(source))
                     for place, source in zip(places[1:], sources[1:], strict=True)
                 ),
                 confidence=Confidence.MEDIUM if _is_set(repeated, places) else Confidence.HIGH,

@@ -126,7 +126,7 @@ def _in_file(everything: Sequence[launch.Started]) -> Iterator[Finding]:
 
 def _finding(name: str, started: launch.Started, earlier: launch.Started, here: launch.Started, more: int) -> Finding:
     what = f"'{started.target[0]}' of '{started.package[0]}'" if started.package else f"'{started.target[0]}'"
-    related = [Related("the first node", earlier.span)] if earlier.span != started.span else []
+    related = [Related(f"the first node named '{name}'", earlier.span)] if earlier.span != started.span else []
     if here is started:
         return Finding(
             f"{what} is the second node named '{name}', but node names must be unique; give it another name or namespace",
@@ -140,7 +140,7 @@ def _finding(name: str, started: launch.Started, earlier: launch.Started, here: 
         f"give one of the nodes another name or namespace{others}",
         here.span,
         name,
-        (Related("the second node", started.span), *related),
+        (Related(f"the second node named '{name}'", started.span), *related),
     )
 
 

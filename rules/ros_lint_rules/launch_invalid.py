@@ -45,7 +45,7 @@ The confidence is medium for removed keywords in a launch file named after a dis
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from ros_lint.api import (
     Confidence,
@@ -92,12 +92,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         )
 
 
-def _fix(path: str, problems: Iterable[Problem]) -> Fix | None:
+def _fix(path: str, problems: Sequence[Problem]) -> Fix | None:
     """Return the fix that renames keywords that launch no longer has; None if the launch file has a problem of another kind."""
     if any(problem.kind != "removed-keyword" for problem in problems):
         return None
     edits = dict.fromkeys(Edit(problem.span, problem.subject) for problem in problems)
-    return Fix("rename the removed keywords", tuple(edits), safe=not _is_for_old(path))
+    keywords = ", ".join(f"{name}=" for name in dict.fromkeys(problem.subject for problem in problems))
+    return Fix(f"replace the removed keywords by {keywords}", tuple(edits), safe=not _is_for_old(path))
 
 
 def _is_for_old(path: str) -> bool:
@@ -117,7 +118,8 @@ def _newer(problems: Iterable[Problem], target: TargetDistro) -> Iterator[Proble
 
 
 def _also(first: Problem, other: Problem) -> str:
-    return "also here" if _message(other) == _message(first) else _message(other)
+    """Return the message of a further problem, without the advice if the message of the finding has the same advice."""
+    return _message(other).partition("; ")[0] if _message(other) == _message(first) else _message(other)
 
 
 def _message(problem: Problem) -> str:

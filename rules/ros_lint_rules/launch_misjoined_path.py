@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace, first_related, launch
+from ros_lint.api import Finding, Package, Problem, Related, Rule, Severity, Workspace, first_related, launch
 
 
 def check(package: Package, _: Workspace) -> Iterator[Finding]:
@@ -34,10 +34,13 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
         if not misjoined:
             continue
         first, *others = sorted(misjoined, key=lambda problem: problem.span)
-        related = first_related(
-            Related("also here" if other.message == first.message else other.message, other.span) for other in others
-        )
+        related = first_related(Related(_also(first, other), other.span) for other in others)
         yield Finding(first.message, first.span, launch_file.path, related)
+
+
+def _also(first: Problem, other: Problem) -> str:
+    """Return the message of a further problem, without the advice if the message of the finding has the same advice."""
+    return other.message.partition("; ")[0] if other.message == first.message else other.message
 
 
 RULE = Rule(

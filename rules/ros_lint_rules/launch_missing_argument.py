@@ -47,7 +47,7 @@ def _of_include(include: launch.PlacedInclude, source: LaunchFile, resolver: lau
                 f"'{file}' requires the argument '{name}', which is not passed here; pass it",
                 action.target.span if action.target is not None else action.span,
                 f"{file}:{name}",
-                (Related("declared here without a default", declared),),
+                (Related(f"argument '{name}' is declared here without a default", declared),),
             )
 
 

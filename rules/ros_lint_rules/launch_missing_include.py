@@ -118,7 +118,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
             path,
             first_related(
                 [
-                    *(Related("also named here", place) for place in repeated),
+                    *(Related(f"'{path}' is also named here", place) for place in repeated),
                     *(Related(f"'{name}' does not exist either", place) for name, _, place, _ in more),
                 ]
             ),
@@ -159,7 +159,12 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{_message(owner, path)}{_hint(path, existing) or _owner(package, path, workspace) or _OTHERWISE}",
             best.span,
             path,
-            first_related([*_look_up(best, names_at), *(Related("also named here", other.span) for other in others)]),
+            first_related(
+                [
+                    *_look_up(best, owner, names_at),
+                    *(Related(f"'{path}' is also named here", other.span) for other in others),
+                ]
+            ),
             confidence=Confidence.HIGH
             if sure and not best.from_default and not _is_made(owner, path, workspace)
             else Confidence.MEDIUM,
@@ -172,14 +177,14 @@ def _is_never_used(reference: LaunchReference, workspace: Workspace) -> bool:
     return any(_files_without(owner, path, reference.kind, workspace) is None for owner, path in reference.fallback_for)
 
 
-def _look_up(reference: LaunchReference, names_at: Mapping[Span, set[str]]) -> Iterator[Related]:
+def _look_up(reference: LaunchReference, owner: str, names_at: Mapping[Span, set[str]]) -> Iterator[Related]:
     """Yield the earlier line of a launch file in which the package of a missing file is looked up.
 
     Nothing is yielded if the look-up also serves for other files. ``names_at``: the files for which each look-up serves.
     """
     place, named = reference.span, reference.package_span
     if place.path == named.path and named.line < place.line and len(names_at[named]) == 1:
-        yield Related("the package is looked up here", named)
+        yield Related(f"package '{owner}' is looked up here", named)
 
 
 def _passed(workspace: Workspace) -> Iterator[Finding]:
@@ -206,7 +211,7 @@ def _passed(workspace: Workspace) -> Iterator[Finding]:
             f"{hint or '; correct the argument, or add the file'}",
             passed.via,
             passed.path,
-            (Related("named here", passed.span),),
+            (Related(f"'{passed.path}' is named here", passed.span),),
             confidence=Confidence.HIGH if sure and not _is_made(passed.package, passed.path, workspace) else Confidence.MEDIUM,
             severity=_severity(passed.path),
             package=package.name,

@@ -99,7 +99,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"{_use(best, name, place)}{how}, but '{package.name}' {_declares(package, name)}{proposal.ending}",
             place,
             name,
-            first_related(Related("also needed here", span) for span in _elsewhere(place, others)),
+            first_related(Related(f"'{name}' is also needed here", span) for span in _elsewhere(place, others)),
             proposal.fix,
             Confidence.HIGH if certain and not _needs(workspace, name, package) else Confidence.MEDIUM,
         )

@@ -68,7 +68,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             f"{install}look it up in the share directory of the package",
             first,
             path,
-            tuple(Related("also named here", span) for _, span in others),
+            tuple(Related(f"'{path}' is also named here", span) for _, span in others),
             confidence=Confidence.HIGH if installed else Confidence.MEDIUM,
         )
 

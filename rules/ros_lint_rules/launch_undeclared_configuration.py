@@ -75,7 +75,7 @@ def _similar(arguments: launch.ArgumentUse) -> Iterator[Finding]:
             f"did you mean '{read.declared}', which is declared{' but not used' if unused else ''}?",
             read.span,
             name,
-            (Related("declared here", arguments.declared[read.declared]),),
+            (Related(f"launch configuration '{read.declared}' is declared here", arguments.declared[read.declared]),),
             confidence=Confidence.HIGH if unused else Confidence.MEDIUM,
             severity=Severity.WARNING,
         )

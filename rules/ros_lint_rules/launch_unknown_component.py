@@ -61,7 +61,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{owner}' does not register a component '{name}'{hint}",
             best.span,
             f"{owner}/{name}",
-            first_related(Related("also loaded here", other.span) for other in others),
+            first_related(Related(f"'{name}' is also loaded here", other.span) for other in others),
             launch.rename_fix(f"load '{only}'", only, [(reference.span, reference.exact) for reference in references]),
             Confidence.HIGH if sure and not best.from_default else Confidence.MEDIUM,
         )

@@ -69,7 +69,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{owner}' does not install an executable '{name}'{missing.hint}",
             best.span,
             name,
-            (*missing.related, *first_related(Related("also started here", reference.span) for reference in others)),
+            (*missing.related, *first_related(Related(f"'{name}' is also started here", reference.span) for reference in others)),
             launch.rename_fix(
                 f"start '{missing.meant}'",
                 missing.meant,
@@ -116,7 +116,9 @@ def _missing(owner: str, name: str, starting: Package, workspace: Workspace) -> 
             return None
         if name in installed.elsewhere:
             path = installed.elsewhere[name]
-            where = tuple(Related("installed here", p.span) for p in package.built.products.installs if p.path == path)
+            where = tuple(
+                Related(f"'{path}' is installed here", p.span) for p in package.built.products.installs if p.path == path
+            )
             hint = f" in lib/{owner}; it is installed as '{path}', where launch does not look; install it to lib/{owner}"
             return _Missing(hint, "", where)
         all_names |= installed.names
@@ -127,7 +129,7 @@ def _missing(owner: str, name: str, starting: Package, workspace: Workspace) -> 
         return by_module
     scripts = [package.script for package in owners]
     related = tuple(
-        Related(f"build script of '{owner}'", script.commands.insertion)
+        Related(f"the build script of '{owner}'", script.commands.insertion)
         for script in scripts
         if script and script.commands.insertion
     )
@@ -147,7 +149,7 @@ def _uninstalled_target(package: Package, name: str) -> _Missing | None:
     if target is None:
         return None
     hint = f", although it builds it; install it to lib/{package.name}"
-    return _Missing(hint, "", (Related("built here", target.span),))
+    return _Missing(hint, "", (Related(f"'{name}' is built here", target.span),))
 
 
 def _named_by_module(package: Package, name: str, all_names: Collection[str]) -> _Missing | None:
@@ -161,7 +163,7 @@ def _named_by_module(package: Package, name: str, all_names: Collection[str]) ->
         return _Missing(
             f"; start {quoted}, which runs the module '{entries[0].module}'",
             entries[0].name if len(entries) == 1 else "",
-            tuple(Related("this entry point", entry.span) for entry in entries[:1]),
+            tuple(Related(f"entry point '{entry.name}' is defined here", entry.span) for entry in entries[:1]),
         )
     module = next(
         (module for module in script.products.python_packages if module.rpartition(".")[2] == stem and "." in module), ""
@@ -181,7 +183,7 @@ def _uninstalled_script(package: Package, name: str) -> _Missing | None:
     uninstalled = next((path for path in files if path not in programs_of), "")
     if not uninstalled:
         return None
-    file = Related("this file", package.start_of(uninstalled))
+    file = Related(f"the script '{uninstalled}'", package.start_of(uninstalled))
     return _Missing(f"; install the script '{uninstalled}' to {own[:-1]}", "", (file,))
 
 

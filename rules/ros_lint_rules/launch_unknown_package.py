@@ -96,7 +96,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"there is no package '{name}'{_joined(verdict.hint, hint)}",
             best.reference.package_span,
             name,
-            first_related(Related("also named here", span) for span in spans[1:]),
+            first_related(Related(f"'{name}' is also named here", span) for span in spans[1:]),
             launch.rename_fix(
                 f"write '{verdict.meant}' instead of '{name}'",
                 verdict.meant,

@@ -75,8 +75,8 @@ def _too_early(file: LaunchFile, resolver: launch.IncludeResolver, above: Collec
             name,
             first_related(
                 [
-                    Related("declared here", declared[name][1]),
-                    *(Related("also read here", span) for span, _ in others),
+                    Related(f"launch argument '{name}' is declared here", declared[name][1]),
+                    *(Related(f"launch argument '{name}' is also read here", span) for span, _ in others),
                 ]
             ),
             confidence=Confidence.HIGH if any(sure for _, sure in reads) else Confidence.MEDIUM,

@@ -132,7 +132,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         by_message.setdefault((message, confidence), []).extend(places)
     for (message, confidence), ((first, _), *others) in by_message.items():
         related = first_related(
-            Related("also named here" if other.path == first.path else f"also '{other.path}'", other.span) for other, _ in others
+            Related(f"'{other.path}' {'is also named here' if other.path == first.path else 'has the same problem'}", other.span)
+            for other, _ in others
         )
         yield Finding(message, first.span, first.path, related, confidence=confidence)
 

@@ -91,7 +91,7 @@ def _format(manifest: Manifest, named: manifests.NamedSchema | None) -> Iterator
             f"package_format{manifest.format}.xsd",
             named.span,
             "format",
-            fix=Fix.of(f"name the schema of format {manifest.format}", Edit(named.span, str(manifest.format))),
+            fix=Fix.of(f"write package_format{manifest.format}.xsd", Edit(named.span, str(manifest.format))),
         )
 
 
@@ -116,7 +116,7 @@ def _order(manifest: Manifest, children: list[Element | Depend]) -> Finding | No
     ranks = [edits.manifest.schema_rank(child.tag) for child in children]
     for number, (earlier, child) in enumerate(pairwise(children), 1):
         if ranks[number] < ranks[number - 1]:
-            fix = Fix.of("sort the elements", *edits.manifest.sort(manifest))
+            fix = Fix.of("sort the elements of <package> as the schema requires", *edits.manifest.sort(manifest))
             several_follow = number + 1 < len(children) and ranks[number - 1] > max(ranks[number:])
             step = f"move <{earlier.tag}> to the end" if several_follow else f"move it before <{earlier.tag}>"
             message = f"<{child.tag}> after <{earlier.tag}> violates the schema; {step}"
@@ -173,7 +173,9 @@ def _of_depend(depend: Depend, violation: manifests.Violation) -> Finding:
 
 
 def _other(span: Span, subject: str, violation: manifests.Violation) -> Finding:
-    return _finding(f"the file is not valid by its schema; xmllint reports: {violation.message}", span, subject)
+    return _finding(
+        f"package.xml violates its schema; correct this element, about which xmllint reports: {violation.message}", span, subject
+    )
 
 
 def _finding(message: str, span: Span, subject: str) -> Finding:

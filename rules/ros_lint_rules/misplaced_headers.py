@@ -87,7 +87,7 @@ def _doubled(package: Package, headers: build.OwnHeaders) -> Iterator[Finding]:
     needed = bool(headers.included) or (exported and not headers.loaded)
     places = ((call, at) for call in package.calls("install", anywhere=True) for at in range(len(call.args)))
     call, at = next(((call, at) for call, at in places if call.span(at) == first.span), (None, 0))
-    fix = Fix.of("install the contents of the folder", edits.cmake.write(call, at, f"{call.texts[at]}/")) if call else None
+    fix = Fix.of("write include/ with a slash at the end", edits.cmake.write(call, at, f"{call.texts[at]}/")) if call else None
     name = first.source.rpartition("/")[2]
     yield Finding(
         f"the headers in 'include/' ('{name}' ...) are installed to {folder}, where compilers do not find them; "

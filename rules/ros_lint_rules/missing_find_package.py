@@ -77,7 +77,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if mention.purpose in _NO_EVIDENCE or not (is_declared or workspace.world.is_package(name)):
             continue
         what = mention.what or f"'{mention.name}'"
-        missing.setdefault(name, []).append((what, Related(f"also needed here: {what}", mention.span)))
+        missing.setdefault(name, []).append((what, Related(f"'{name}' is also needed here: {what}", mention.span)))
     for name, places in missing.items():
         (what, first), *others = places
         sure = along is not None and name not in along and name not in probable
@@ -124,7 +124,7 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
                 "the package to the target",
                 first.span,
                 name,
-                first_related(Related(f"also included here: {use.what}", use.span) for use in others),
+                first_related(dependencies.use_note(name, use, "is also included here") for use in others),
             )
 
 

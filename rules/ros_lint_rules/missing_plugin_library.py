@@ -44,7 +44,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 def _library(package: Package, workspace: Workspace, plugin: PluginFile, library: PluginLibrary) -> Iterator[Finding]:
     if not library.path:
-        yield Finding("<library> without path makes pluginlib loop forever; add the path", library.span, plugin.path)
+        yield Finding(
+            "<library> without the attribute 'path' makes pluginlib loop forever; add the attribute", library.span, plugin.path
+        )
         return
     script = package.built
     installed = {_plain(p.path) for p in script.products.installs if not p.source and p.path.endswith((".so", ".a"))}

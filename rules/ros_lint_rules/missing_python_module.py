@@ -220,7 +220,7 @@ def _of_cmake(package: Package, workspace: Workspace) -> Iterator[Finding]:
         f"the Python package '{folder}/' is not installed{why}; add {call}",
         script.commands.insertion,
         folder,
-        first_related(Related("imported here", use.span) for _, use in users),
+        first_related(Related(f"'{package.name}' is imported by '{other.name}' here", use.span) for other, use in users),
         Fix.of(f"install '{folder}/'", edits.cmake.at_end(script, f"{_FIND}\n{call}"), safe=False),
         Confidence.HIGH if users or f"{folder}/setup.cfg" in paths else Confidence.MEDIUM,
         None if users else Severity.WARNING,

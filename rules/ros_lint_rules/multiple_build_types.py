@@ -33,9 +33,13 @@ def check(workspace: Workspace) -> Iterator[Finding]:
             f"{len(exports)} build types apply to {workspace.target.distro}: {types}; keep one, or give each a condition",
             last.span,
             "build_type",
-            tuple(Related("this build type also applies", export.span) for export in earlier),
+            tuple(Related(_also(export.text), export.span) for export in earlier),
             package=package.name,
         )
+
+
+def _also(build_type: str) -> str:
+    return f"the build type '{build_type}' also applies" if build_type else "the empty build type also applies"
 
 
 RULE = Rule(

@@ -71,7 +71,7 @@ def _all_hidden(package: Package, lost: list[Manifest]) -> Finding:
         f"colcon ignores {all_names}, because they are inside {_outer(package)}; {_remedy(package, lost, 'them')}",
         package.span,
         package.name,
-        first_related(Related("an ignored package", nested.name_span) for nested in lost),
+        first_related(Related(f"colcon ignores '{nested.name}'", nested.name_span) for nested in lost),
     )
 
 
@@ -103,7 +103,7 @@ def _outer(package: Package) -> str:
         return f"the package '{package.name}'"
     script = "CMakeLists.txt" if package.type == "cmake" else "setup.py"
     place = f"'{package.path}'" if package.path else "the root folder"
-    return f"the package '{package.name}' ({place}, because of its {script})"
+    return f"the package '{package.name}' ({script} makes {place} a package)"
 
 
 def _remedy(package: Package, inside: list[Manifest], it: str) -> str:

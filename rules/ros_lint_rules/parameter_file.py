@@ -74,7 +74,7 @@ def _flat(uses: list[launch.NodeParameterFile]) -> Iterator[Finding]:
             "ros__parameters",
             nodes[0].value.span,
             nodes[0].file.path,
-            (Related("the parameter file", nodes[0].file.first), *_more(nodes)),
+            (Related(f"the parameter file '{_name(nodes[0])}'", nodes[0].file.first), *_more(nodes)),
             severity=Severity.ERROR,
         )
 
@@ -87,12 +87,12 @@ def _of_others(uses: list[launch.NodeParameterFile]) -> Finding:
         "correct the name of the node in the file, or write /** instead",
         first.value.span,
         first.file.path,
-        (Related("the parameter file", first.file.nodes[0][1]), *_more(uses)),
+        (Related(f"the parameter file '{_name(first)}'", first.file.nodes[0][1]), *_more(uses)),
     )
 
 
 def _more(uses: list[launch.NodeParameterFile]) -> tuple[Related, ...]:
-    return first_related(Related("also passed here", passed.value.span) for passed in uses[1:])
+    return first_related(Related(f"'{_name(passed)}' is also passed here", passed.value.span) for passed in uses[1:])
 
 
 def _name(passed: launch.NodeParameterFile) -> str:

@@ -74,9 +74,9 @@ def _of_other_package(plugin: str, workspace: Workspace) -> str:
     owner = _registering_packages(workspace)[plugin]
     described = {entry.type for file in owner.built.files.plugin_files for library in file.libraries for entry in library.classes}
     remedy = (
-        "remove the entry, because that package describes the class"
+        "remove this <class>, because that package describes the class"
         if plugin in described
-        else f"move the entry to a plugin description of '{owner.name}'"
+        else f"move this <class> to a plugin description of '{owner.name}'"
     )
     return f"no source of this package registers the plugin '{plugin}', only package '{owner.name}' does; {remedy}"
 
@@ -106,10 +106,10 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
     if alike:
         hint = names.did_you_mean([alike[0].name])
     elif entry.type in package.unwritten_classes:
-        verb, hint = "registers or defines", "; remove the entry"
+        verb, hint = "registers or defines", "; remove this <class>"
     else:
         hint = f"; add PLUGINLIB_EXPORT_CLASS({entry.type}, {entry.base}) to a source"
-    related = first_related(Related("registered here", macro.span) for macro in alike)
+    related = first_related(Related(f"'{macro.name}' is registered here", macro.span) for macro in alike)
     yield Finding(
         f"no source of this package {verb} the plugin '{entry.type}'{hint}",
         entry.span,
@@ -127,7 +127,7 @@ def _base(plugin: PluginFile, entry: PluginClass, macros: Sequence[Registration]
             "write the same base class in both places",
             entry.span,
             f"{plugin.path}#{entry.type}",
-            first_related(Related("registered here", macro.span) for macro in macros),
+            first_related(Related(f"'{macro.name}' is registered here", macro.span) for macro in macros),
         )
 
 

@@ -53,7 +53,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{depend.name}' is declared {how}; remove this <{depend.tag}>",
             depend.span,
             depend.name,
-            (Related("also declared here", kept.span),),
+            (Related(f"'{depend.name}' is also declared here", kept.span),),
             Fix(f"remove <{depend.tag}>{depend.name}</{depend.tag}>", (edits.manifest.remove(manifest, depend),)),
         )
 

@@ -65,7 +65,7 @@ def _modules(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{_MODULE}' was removed in Bouncy, so setup.py stops here; list data_files and set install_scripts in setup.cfg",
             first.span,
             _MODULE,
-            first_related(Related("also here", mention.span) for mention in others),
+            first_related(Related(f"'{_MODULE}' is also imported here", mention.span) for mention in others),
             package=package.name,
         )
 
@@ -85,7 +85,7 @@ def _commands(name: str, callers: Iterable[tuple[Package, list[Call]]], workspac
             f"{name}() was removed in {workspace.target.distro}; use target_link_libraries() with targets such as rclcpp::rclcpp",
             first.name_span,
             name,
-            first_related(Related("also here", call.name_span) for call in others),
+            first_related(Related(f"{name}() is also called here", call.name_span) for call in others),
             Fix.of(edits.cmake.LINKED, *edits.cmake.link_to_targets(calls, workspace), safe=False),
             package=package.name,
         )
@@ -106,7 +106,7 @@ def _if_newer(name: str, callers: Sequence[tuple[Package, list[Call]]], workspac
         "rclcpp::rclcpp, or pass --distro if you build for an older distribution",
         calls[0].name_span,
         name,
-        first_related(Related(f"'{package.name}' calls it here", calls[0].name_span) for package, calls in others),
+        first_related(Related(f"'{package.name}' calls {name}() here", calls[0].name_span) for package, calls in others),
         severity=Severity.INFO,
         package=first.name,
     )

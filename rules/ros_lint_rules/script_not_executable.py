@@ -136,7 +136,7 @@ def _no_bit(package: Package, span: Span, scripts: list[InstalledFile], files: d
         f"use {remedy}",
         span,
         package.relative(scripts[0].source),
-        first_related(Related("this script", package.start_of(script.source)) for script in scripts),
+        first_related(Related(f"the script '{script.source}'", package.start_of(script.source)) for script in scripts),
         fix,
         _confidence(package, call),
     )

@@ -52,7 +52,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if dependents:
         message += f"; build {_few(dependents)} in the workspace, too"
     elif lost:
-        message += "; add what is missing, or remove the package from the workspace"
+        message += f"; add {'it' if len(lost) == 1 else 'them'} to the package in the workspace, or remove that package"
     yield Finding(message, package.span, package.name, severity=None if dependents or lost else Severity.INFO)
 
 
@@ -72,9 +72,9 @@ def _lost(package: Package, workspace: Workspace) -> Iterator[str]:
         installed = {
             provided.path.removeprefix(folder) for provided in script.products.installs if provided.path.startswith(folder)
         }
-        yield from (f"'{name}'" for name in below.known("launch").names if name not in installed)
+        yield from (f"launch file '{name}'" for name in below.known("launch").names if name not in installed)
     if not package.hidden(Facet.INTERFACES):
-        yield from (f"'{name}'" for name in below.known("interfaces").names if name not in script.products.interfaces)
+        yield from (f"interface '{name}'" for name in below.known("interfaces").names if name not in script.products.interfaces)
 
 
 def _few(names: tuple[str, ...]) -> str:

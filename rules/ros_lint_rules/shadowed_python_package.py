@@ -43,7 +43,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
                 "so Python finds only one of them; rename this Python package",
                 call.span(0),
                 name,
-                (Related("this generates the Python package for the interfaces", generating[0].name_span),),
+                (Related(f"the Python package '{name}' for the interfaces is generated here", generating[0].name_span),),
             )
 
 

@@ -122,7 +122,6 @@ from ros_lint.api import (
     Facet,
     Finding,
     Package,
-    Related,
     Role,
     Rule,
     Severity,
@@ -155,7 +154,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         severity = Severity.INFO if need.name in with_launch else Severity.WARNING if is_mild else None
         finding = _finding(package, workspace, need, problem, Confidence.HIGH if sure else Confidence.MEDIUM)
         if dependencies.is_declared_misspelled(package, workspace, need):  # another rule fixes the name
-            message = f"'{need.name}' is used here, but package.xml declares it under a wrong name; see unknown-dependency"
+            message = f"'{need.name}' is used here, but package.xml declares it under a wrong name; correct the name"
             finding = finding._replace(message=message, fix=None)
         elif _is_unused(need) and finding.fix:
             message = (
@@ -229,7 +228,7 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
         message,
         best.span,
         name,
-        first_related(Related(f"also used here: {use.what}", use.span) for use in others),
+        first_related(dependencies.use_note(name, use) for use in others),
         None if elsewhere or condition or suggestion else proposal.fix,
         confidence if proposal.certain else min(confidence, Confidence.MEDIUM),
         Severity.WARNING if _is_conditional(need) or (not workspace.target.explicit and is_partial) else None,
@@ -423,8 +422,8 @@ _INSTEAD_OF_DISTUTILS = {
     "distutils.log": "logging",
     "distutils.spawn": "subprocess.run() and shutil.which()",
     "distutils.sysconfig": "sysconfig",
-    "distutils.util": "a function of your own, such as for strtobool(), or sysconfig.get_platform()",
-    "distutils.version": "packaging.version.Version (key python3-packaging)",
+    "distutils.util": "sysconfig.get_platform() or your own strtobool()",
+    "distutils.version": "packaging.version.Version (rosdep key python3-packaging)",
 }
 """Replacements for the modules of distutils, as PEP 632 recommends; setuptools replaces all others."""
 _PYTEST = "python3-pytest"

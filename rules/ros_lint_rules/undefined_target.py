@@ -74,7 +74,7 @@ _USERS = (
     "target_link_libraries",
     "target_sources",
 )
-_UNDEFINED = "; correct the name, or define the target before"
+_UNDEFINED = "; correct the name, or define the target before this call"
 """The remedy for an undefined target if no target has a similar name."""
 _DEFINING = ("add_custom_target", "rosidl_generate_interfaces", "ament_vendor", "add_executable", "add_library")
 
@@ -163,14 +163,14 @@ def _of_others(package: Package, script: BuildScript, workspace: Workspace) -> I
             if exported
             else "; it exports no targets: use install(TARGETS ... EXPORT) and ament_export_targets() there"
         )
-        first, *more = [mention.span for mention in mentions]
+        first, *more = mentions
         related = [
-            *first_related(Related("also linked here", span) for span in more),
+            *first_related(Related(f"'{mention.name}' is also linked here", mention.span) for mention in more),
             *_definitions(workspace.by_name[owner], all_names),
         ]
         targets = "a target" if len(all_names) == 1 else "targets"
         message = f"'{owner}' does not export {targets} {names.shorten_list(all_names)}{hint}"
-        yield Finding(message, first, f"{owner}::{all_names[0]}", tuple(related))
+        yield Finding(message, first.span, f"{owner}::{all_names[0]}", tuple(related))
 
 
 def _may_export(package: Package, target: str) -> bool:
@@ -204,7 +204,7 @@ def _definitions(owners: Sequence[Package], all_names: Collection[str]) -> Itera
     for owner in owners:
         for target in owner.built.products.targets:
             if target.name in all_names:
-                yield Related("defined here, but not exported", target.span)
+                yield Related(f"'{target.name}' is defined here, but not exported", target.span)
 
 
 def _no_libraries(package: Package, defined: Collection[str]) -> Iterator[Finding]:
@@ -235,7 +235,7 @@ def _finding(message: str, name: str, all_names: Sequence[str], places: list[tup
     if near and all(call.texts[index] == name for call, index in places):
         fix = Fix(f"write '{near[0]}'", tuple(edits.cmake.write(call, index, near[0]) for call, index in places), safe=False)
     first, *others = [call.span(index) for call, index in places]
-    return Finding(message, first, name, first_related(Related("also here", span) for span in others), fix)
+    return Finding(message, first, name, first_related(Related(f"'{name}' is also used here", span) for span in others), fix)
 
 
 RULE = Rule(

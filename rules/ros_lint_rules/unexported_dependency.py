@@ -174,12 +174,12 @@ def _linked(package: Package, workspace: Workspace, reported: Container[str]) ->
     for group, confidence in ((sure, usable), ([name for name in all_names if name not in sure], Confidence.MEDIUM)):
         if not group:
             continue
-        first, *others = [span for name in group for span in places[name]]
+        (_, first), *others = [(name, span) for name in group for span in places[name]]
         message = (
             f"an exported library links targets of {names.shorten_list(group)}, but packages that use this package do not find "
             f"them; add ament_export_dependencies({' '.join(group)})"
         )
-        related = first_related(Related("also linked publicly", span) for span in others)
+        related = first_related(Related(f"'{name}' is also linked publicly here", span) for name, span in others)
         yield tuple(group) if group is sure else (), Finding(message, first, group[0], related, confidence=confidence)
 
 
@@ -315,14 +315,14 @@ def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
         if not compiled:
             remedy += ", or do not install the header, because other packages cannot compile it"
         confidence, severity = _certainty(package, workspace, name, exported, compiled) if compiled else (Confidence.LOW, None)
-        lost = "; " if severity is None else ", so dependents only find it if another exported package does; "
+        lost = "; " if severity is None else ", so packages that use this package find it only through other exported packages; "
         yield (
             (cmake_name,) if found and confidence is Confidence.HIGH else (),
             Finding(
                 f"'{name}' is included by this installed header, but not exported{lost}{remedy}",
                 first.span,
                 name,
-                first_related(Related(f"also included here: {use.what}", use.span) for use in others),
+                first_related(dependencies.use_note(name, use, "is also included here") for use in others),
                 None,
                 confidence,
                 severity,

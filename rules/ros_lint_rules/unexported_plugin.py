@@ -103,7 +103,9 @@ def _undescribed(package: Package, registered: Sequence[Registration]) -> Iterat
                 "it; add it to a description",
                 macro.span,
                 macro.name,
-                first_related(Related("this description is exported", call.span(1)) for call in calls),
+                first_related(
+                    Related(f"the plugin description '{call.texts[1]}' is exported here", call.span(1)) for call in calls
+                ),
             )
 
 
@@ -121,7 +123,7 @@ def _unexported(package: Package, workspace: Workspace, plugins: build.Plugins) 
     """Return the finding for a package that registers classes and exports no plugin description."""
     registered = plugins.registered
     first, *others = registered
-    related = first_related(Related("also registered here", macro.span) for macro in others)
+    related = first_related(Related(f"'{macro.name}' is also registered here", macro.span) for macro in others)
     types = {macro.name for macro in registered}
     files = package.built.files.plugin_files
     plugin = next((p for p in files if any(c.type in types for library in p.libraries for c in library.classes)), None)
@@ -147,8 +149,8 @@ def _unexported(package: Package, workspace: Workspace, plugins: build.Plugins) 
         first.span,
         plugin.path if plugin else "pluginlib",
         related
-        + ((Related("described here", plugin.span),) if plugin else ())
-        + ((Related("exported here, as in ROS 1", exported.span),) if exported else ()),
+        + ((Related(f"the plugin description '{plugin.path}'", plugin.span),) if plugin else ())
+        + ((Related(f"'{plugin.path}' is exported here, as in ROS 1", exported.span),) if plugin and exported else ()),
         _export(package, plugins, plugin) if plugin else None,
         # A source that is not compiled may be unused; in a package without libraries, the library is yet to be added.
         confidence=Confidence.HIGH

@@ -108,7 +108,7 @@ def _of_python(package: Package) -> Iterator[Finding]:
 
 
 def _here(package: Package, file: str) -> Related:
-    return Related("this file", package.start_of(file))
+    return Related(f"no code is generated for '{file}'", package.start_of(file))
 
 
 def _rejections(package: Package, workspace: Workspace, file: str) -> Iterator[str]:

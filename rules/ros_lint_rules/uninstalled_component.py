@@ -44,13 +44,13 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
                 "where the ament index expects it",
                 place.span,
                 name,
-                (Related("its components are registered here", call.span(0)),),
+                (Related(f"the components of '{name}' are registered here", call.span(0)),),
             )
         elif name not in listed and not any(file.startswith(f"lib{name}.") for file in paths):
             reported.add(name)
             fix = Fix.of(f"install '{name}'", edits.cmake.install_library(script, name))
             message = f"the library '{name}' has components but is not installed; install it to lib"
-            yield Finding(message, call.span(0), name, (Related("the library is built here", targets[name].span),), fix)
+            yield Finding(message, call.span(0), name, (Related(f"the library '{name}' is built here", targets[name].span),), fix)
 
 
 RULE = Rule(

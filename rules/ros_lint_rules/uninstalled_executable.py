@@ -102,7 +102,9 @@ def _problems(package: Package, script: BuildScript, workspace: Workspace) -> It
         if not all(_is_outside_packages(folder) for folder, _, _ in installed):
             continue
         launched = by_launch_files.get(installed[0][1] if installed else target.name, ())
-        related = first_related(Related("started by a launch file here", reference.span) for reference in launched)
+        related = first_related(
+            Related(f"'{target.name}' is started by a launch file here", reference.span) for reference in launched
+        )
         sure = bool(launched or target.name in nodes)
         nowhere = all(folder in ("lib", f"bin/{package.name}") for folder, _, _ in installed)
         if installed and nowhere:
@@ -119,7 +121,7 @@ def _problems(package: Package, script: BuildScript, workspace: Workspace) -> It
                 "",
                 span,
                 target.name,
-                (*related, Related("built here", target.span)),
+                (*related, Related(f"'{target.name}' is built here", target.span)),
                 _destination_fix(package, span, script.products.targets),
                 Confidence.MEDIUM if uncertain else Confidence.HIGH,
                 None if launched else Severity.WARNING,
@@ -208,7 +210,11 @@ def _destination_fix(package: Package, span: Span, targets: tuple[BuildTarget, .
         if not at and executables_only and "DESTINATION" in texts[:-1]:
             at = texts.index("DESTINATION") + 1
         if at and texts[at - 1] == "DESTINATION" and texts[at] in _BIN:
-            return Fix("install it to lib/${PROJECT_NAME}", (edits.cmake.write(call, at, "lib/${PROJECT_NAME}"),), safe=False)
+            return Fix(
+                "install the executables to lib/${PROJECT_NAME}",
+                (edits.cmake.write(call, at, "lib/${PROJECT_NAME}"),),
+                safe=False,
+            )
     return None
 
 

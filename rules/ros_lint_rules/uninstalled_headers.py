@@ -78,7 +78,7 @@ def _uninstalled(package: Package, headers: build.OwnHeaders) -> Finding:
         f"install them to {_place(exports)}{', or remove the export' if may_be_needless else ''}",
         headers.insertion,
         "include/",
-        (*(Related("exported here", call.name_span) for call in exports), *build.related_includes(includes)),
+        (*(Related("the headers are exported here", call.name_span) for call in exports), *build.related_includes(includes)),
         _fix(package, exports),
         sure,
         None if (exports and library and not may_be_needless) or includes else Severity.WARNING,
@@ -97,7 +97,7 @@ def _export_without_library(headers: Sequence[str], exports: Sequence[Call]) -> 
         "to use them with; remove the export",
         first.name_span,
         "include/",
-        first_related(Related("also exported here", call.name_span) for call in others),
+        first_related(Related("the headers are also exported here", call.name_span) for call in others),
         severity=Severity.WARNING,
     )
 
@@ -111,7 +111,7 @@ def _fix(package: Package, exports: Sequence[Call]) -> Fix | None:
     script = package.script
     assert script is not None
     line = f"install(DIRECTORY include/ DESTINATION {_place(exports)})"
-    return Fix.of("install the headers", edits.cmake.at_end(script, line), safe=bool(exports))
+    return Fix.of("install the headers in 'include/'", edits.cmake.at_end(script, line), safe=bool(exports))
 
 
 RULE = Rule(

@@ -104,7 +104,7 @@ def _finding(package: Package, folder: str, paths: Iterable[str], whole: bool) -
         f"{what}, so ros2 launch will not find {it}; {remedy}",
         place or edits.setup_py.place(script),
         folder or paths[0],
-        first_related(Related("this launch file", package.start_of(path)) for path in paths),
+        first_related(Related(f"the launch file '{path}'", package.start_of(path)) for path in paths),
         _fix(package, folder, paths, whole),
     )
 

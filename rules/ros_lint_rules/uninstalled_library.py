@@ -94,9 +94,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         users = [(name, span) for name, span, test in links.get(target.name, ()) if name in installed and not test]
         users = users if shared and not headers_only else []
         exported = exports.get(target.name)
-        related = first_related(Related(f"linked by '{name}' here", span) for name, span in users)
+        related = first_related(Related(f"'{target.name}' is linked by '{name}' here", span) for name, span in users)
         if exported is not None:
-            related += (Related("exported here", exported),)
+            related += (Related(f"'{target.name}' is exported here", exported),)
         reason = f", although '{users[0][0]}' needs it at run time" if users else ", although it is exported" if exported else ""
         yield Finding(
             f"the library '{target.name}' is built, but not installed{reason}; install it to lib",
@@ -123,7 +123,7 @@ def _in_other_folder(package: Package, exports: Mapping[str, Span]) -> Iterator[
                 f"install it to lib{', or remove the export, because plugins are loaded, not linked' if loaded else ''}",
                 place.span,
                 name,
-                (Related("exported here", exported),),
+                (Related(f"'{name}' is exported here", exported),),
                 severity=Severity.WARNING,
             )
 

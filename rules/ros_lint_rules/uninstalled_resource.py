@@ -151,7 +151,7 @@ def _looked_up(package: Package, script: BuildScript, unit: str, look_ups: list[
         f"'{unit}' is not installed, but {reason}; {remedy}",
         place or edits.setup_py.place(script),
         unit,
-        first_related(Related("looked up here", span) for _, span in look_ups),
+        first_related(Related(f"'{path}' is looked up here", span) for path, span in look_ups),
         _fix(package, script, unit),
     )
 
@@ -230,7 +230,7 @@ class _FolderFindings:
             first_related(
                 [Related(f"'{_name(file)}' is named here", places[file]) for file in looked_up]
                 or [
-                    Related("a file of the folder is looked up here", self._looked_into[path])
+                    Related(f"a file in '{path}/' is looked up here", self._looked_into[path])
                     for path in (folder,)
                     if path in self._looked_into
                 ]

@@ -72,7 +72,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"the script '{file.path}' is not installed, so ros2 run does not find it; install it to lib/{package.name}",
             package.start_of(file.path),
             file.path,
-            (Related("started here", file.run),) if file.run else (),
+            (Related(f"'{file.path}' is started here", file.run),) if file.run else (),
             Fix.of(f"install '{file.path}'", edits.cmake.install_program(script, "PROGRAMS", file.path)),
             Confidence.HIGH if sure else Confidence.MEDIUM if forgotten or file.executable else Confidence.LOW,
         )
@@ -87,7 +87,7 @@ def _of_setup(package: Package) -> Iterator[Finding]:
                 "add an entry point to console_scripts",
                 package.start_of(file.path),
                 file.path,
-                (Related("started here", file.run),),
+                (Related(f"'{file.path}' is started here", file.run),),
             )
 
 

@@ -56,7 +56,7 @@ def _unknown(export: Element) -> Finding:
     name = export.text
     close = [_MISTAKES[name]] if name in _MISTAKES else names.similar_names(name, _TYPES, 1, 0.8)
     if not close:
-        message = f"colcon itself has no build type '{name}'; write {_KNOWN}, or another type that it supports"
+        message = f"colcon itself has no build type '{name}'; write {_KNOWN}, or the type of a colcon extension"
         return Finding(message, export.text_span, name, confidence=Confidence.MEDIUM)
     fix = Fix(f"write '{close[0]}'", (Edit(export.text_span, close[0]),))
     return Finding(f"there is no build type '{name}'; write '{close[0]}'", export.text_span, name, fix=fix)

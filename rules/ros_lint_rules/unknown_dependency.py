@@ -109,7 +109,7 @@ def _needless(unresolved: dependencies.UnresolvedDependency, why: str) -> Findin
     title = f"remove the dependency on '{unresolved.name}'" if unresolved.name else "remove the empty tag"
     fix = Fix(title, _removal(unresolved))
     return Finding(
-        f"{why}; remove the tag",
+        f"{why}; remove this <{depend.tag}>",
         depend.span,
         unresolved.name or depend.tag,
         fix=fix,

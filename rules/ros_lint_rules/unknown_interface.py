@@ -99,8 +99,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if used.bare:
             wrong = _qualified(used, package, workspace) or wrong
         generating = next(maker.calls(_GENERATE, anywhere=True), None) if maker else None
-        related = [Related("the interfaces are generated here", generating.name_span)] if generating else []
-        related += [Related("also used here", place) for place in places[1:]]
+        related = [Related(f"the interfaces of '{used.maker}' are generated here", generating.name_span)] if generating else []
+        related += [Related(f"an interface of '{used.maker}' is also used here", place) for place in places[1:]]
         yield Finding(
             wrong,
             places[0],

@@ -109,7 +109,7 @@ def _unlinked(
         has_own_folder = _GENERATED.match(first.name) or (alone and name in workspace.by_name)
         remedy, edit = _remedy(package, workspace, target, name)
         places = [Related(f"'{target.name}' is built here", target.span)]
-        places += [Related(f"also {use.what}", use.span) for use in others]
+        places += [dependencies.use_note(name, use, "is also needed here") for use in others]
         yield Finding(
             f"the target '{target.name}' includes this header, but does not link '{name}', directly or indirectly; add {remedy}",
             first.span,

@@ -65,13 +65,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if called_by_name:
         for depend in idle:
             if depend.name != _ALL:  # it provides the called linters
-                message = f"'{depend.name}' is declared, but CMake calls {_list(called_by_name)} instead; remove the tag"
+                message = (
+                    f"'{depend.name}' is declared, but CMake calls {_list(called_by_name)} instead; remove this <{depend.tag}>"
+                )
                 yield Finding(message, depend.span, depend.name)
         return
     first = next((depend for depend in own if depend.name == _AUTO), idle[0] if idle else None)
     if first is not None:
         yield Finding(
-            f"'{first.name}' is declared, but no linter runs; call {_RUN}() in if(BUILD_TESTING), or remove the tag",
+            f"'{first.name}' is declared, but no linter runs; call {_RUN}() in if(BUILD_TESTING), or remove this <{first.tag}>",
             first.span,
             first.name,
         )

@@ -72,14 +72,16 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         others = _also_named(package, mention)
         places = [_call(package, mention)] + ([f"the other uses of '{name}' in the build script"] if others else [])
         places += [f"<{tag.depend.tag}>{name}</{tag.depend.tag}>" for tag in tags if name not in needed]
-        *first, last = places
+        remedy = f"remove {_listed(places)}"
+        if places[0].startswith("'") and len(places) > 1:
+            remedy = f"remove {places[0]}, and remove {_listed(places[1:])}"
         by_alias = bool(others) and name in reached and not _is_of_interfaces(name, workspace)
         sure = tags and name not in needed and not by_alias and not unsure
         yield Finding(
-            f"no code uses '{name}'; remove {', '.join(first)}{' and ' if first else ''}{last}",
+            f"no code uses '{name}'; {remedy}",
             mention.span,
             name,
-            first_related(Related(f"also named here: {other.what or other.name}", other.span) for other in others),
+            first_related(Related(f"'{name}' is also named here: {other.what or other.name}", other.span) for other in others),
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
             explains=tuple(Consequence(rule, name) for rule in _EXPLAINED) if sure else (),
         )
@@ -87,6 +89,11 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 _EXPLAINED = ("wrong-dependency-kind", "unexported-dependency")
 """Rules that ask to declare or export the package. Without find_package() there is nothing to declare or export."""
+
+
+def _listed(places: Sequence[str]) -> str:
+    *first, last = places
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def _call(package: Package, find: Mention) -> str:

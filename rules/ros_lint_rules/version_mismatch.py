@@ -41,7 +41,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         f"{file} has version {version}, but package.xml has {manifest.version}; write the same version into both",
         span,
         "version",
-        (Related(f"version {manifest.version}", place),),
+        (Related(f"package.xml has version {manifest.version}", place),),
         _fix(manifest, version, span, place),
     )
 

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import operator
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from ros_lint.api import Finding, Package, Related, Rule, Severity, Workspace
 
@@ -61,13 +61,27 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             if _numbers(version) and _numbers(limit) and not test(_numbers(version), _numbers(limit))
         ]
         if failed and len(packages) < 2:
-            yield Finding(
+            message = (
                 f"'{depend.name}' has version {version}, but '{package.name}' requires version {' and '.join(failed)}; "
-                "use a version that satisfies this, or correct the attribute",
+                f"use another version of '{depend.name}', or correct the attribute"
+            )
+            if not _is_possible(depend.versions):
+                limits = " and ".join(f"{_TESTS[attribute][0]} {limit}" for attribute, limit in depend.versions)
+                message = f"no version of '{depend.name}' is {limits}, as '{package.name}' requires; correct the attributes"
+            yield Finding(
+                message,
                 depend.span,
                 depend.name,
-                tuple(Related(f"'{depend.name}' {version}", package.span) for package in packages),
+                tuple(Related(f"'{depend.name}' has version {version}", package.span) for package in packages),
             )
+
+
+def _is_possible(versions: Iterable[tuple[str, str]]) -> bool:
+    """Return whether a version can satisfy all version attributes of a tag; attributes without a valid number are ignored."""
+    tests = [(_TESTS[attribute][1], _numbers(limit)) for attribute, limit in versions if _numbers(limit)]
+    # If any version fits, one of these does: a limit, a version just above a limit, or one below all limits.
+    candidates = [(), *(limit for _, limit in tests), *((*limit, (1, "1")) for _, limit in tests)]
+    return any(all(test(candidate, limit) for test, limit in tests) for candidate in candidates)
 
 
 def _numbers(version: str) -> _Version:

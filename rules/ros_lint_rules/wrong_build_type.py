@@ -45,7 +45,7 @@ def _finding(package: Package, export: Element, script: str) -> Finding:
     near = names.similar_names(script.lower(), [file.lower() for file in package.files if "/" not in file], 1, 0.85)
     meant = next((file for file in package.files if near and file.lower() == near[0]), "")
     remedy = f"but the package has a '{meant}'; rename it to {script}" if meant else "which does not exist; add it"
-    related = (Related("this file", package.start_of(meant)),) if meant else ()
+    related = (Related(f"the file '{meant}'", package.start_of(meant)),) if meant else ()
     return Finding(f"'{export.text}' needs a {script}, {remedy}", export.text_span, export.text, related)
 
 

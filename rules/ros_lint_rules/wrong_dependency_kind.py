@@ -65,7 +65,6 @@ from ros_lint.api import (
     Finding,
     Fix,
     Package,
-    Related,
     Role,
     Rule,
     Severity,
@@ -109,7 +108,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             f"'{name}' is declared as {written} only, {wrong.why}; write <{tag}>{name}</{tag}>",
             wrong.depends[0].span,
             name,
-            first_related(Related(f"used here: {use.what}", use.span) for use in wrong.uses),
+            first_related(dependencies.use_note(name, use, "is used here") for use in wrong.uses),
             Fix(f"declare '{name}' as <{tag}>", dependencies.change_dependency(package, wrong.depends, tag, same_tag)),
             wrong.confidence,
             wrong.severity,
@@ -241,7 +240,7 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
         if not is_provided(~_TEST):
             return _Lack(role, why)
         named = any(use.certain and use.via != "macro" and _is_about(use, role) for use in need.uses)
-        indirect = f"{why}, where it comes with other dependencies"
+        indirect = "but it is also used outside tests, where only other dependencies provide it"
         if not (named and is_provided(~_TEST, surely=True)):
             return None
         by_launch = dependencies.is_part_of_launch(package, workspace, [use for use in need.uses if use.role & ~_TEST])

@@ -41,13 +41,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if exported_for == package.name and exported_for not in asked:
             yield from _for_itself(package, call, bases, workspace)
         if loaders and exported_for not in asked and not workspace.world.is_package(exported_for):
-            fix = Fix(f"export it for '{asked[0]}'", (edits.cmake.write(call, 0, asked[0]),), safe=False)
+            fix = Fix(f"export '{path}' for '{asked[0]}'", (edits.cmake.write(call, 0, asked[0]),), safe=False)
             yield Finding(
                 f"'{path}' is exported for '{exported_for}', which is not a package; "
                 f"export it for {names.shorten_list(asked)}, where the class loader looks for it",
                 call.span(0),
                 path,
-                first_related(Related("loaded here", loader.span) for loader in loaders),
+                first_related(Related(f"plugins for '{loader.package}' are loaded here", loader.span) for loader in loaders),
                 fix if len(asked) == 1 else None,
             )
 
@@ -68,7 +68,7 @@ def _for_itself(package: Package, call: Call, bases: Collection[str], workspace:
             f"'{owner}', which has the base class",
             call.span(0),
             call.texts[1],
-            fix=Fix(f"export it for '{owner}'", (edits.cmake.write(call, 0, owner),), safe=False),
+            fix=Fix(f"export '{call.texts[1]}' for '{owner}'", (edits.cmake.write(call, 0, owner),), safe=False),
         )
 
 

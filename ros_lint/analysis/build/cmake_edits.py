@@ -88,7 +88,7 @@ def export_dependencies(package: Package, names: Sequence[str]) -> Edit | None:
     return at_end(package.built, f"ament_export_dependencies({' '.join(names)})")
 
 
-LINKED = "link to the targets of the packages"
+LINKED = "replace ament_target_dependencies() by target_link_libraries()"
 """Title of the fix that :func:`link_to_targets` makes."""
 
 _NAME = re.compile(r"[A-Za-z]\w*")

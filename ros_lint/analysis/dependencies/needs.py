@@ -11,6 +11,7 @@ from typing import NamedTuple
 from ros_lint.analysis.dependencies.alternatives import stands_for
 from ros_lint.analysis.dependencies.declared_closure import all_declared
 from ros_lint.analysis.dependencies.remedy import cycle_through
+from ros_lint.analysis.finding import Related
 from ros_lint.analysis.memo import cached_by_package
 from ros_lint.base.text import Span
 from ros_lint.facts.manifest import Role
@@ -79,6 +80,15 @@ def optional_needs(package: Package, workspace: Workspace) -> tuple[Need, ...]:
 def is_found_by_cmake(need: Need) -> bool:
     """Return whether CMake certainly searches for the needed package, by a find_package() that is required outside of tests."""
     return any(use.via == "cmake" and use.certain and not use.optional and use.role is not Role.TEST for use in need.uses)
+
+
+def use_note(name: str, use: Use, how: str = "is also used here") -> Related:
+    """Return the note at a further use of a package: "'std_msgs' is also used here: find_package(std_msgs)".
+
+    ``name``: the name of the package in the message of the finding.
+    """
+    quotation = "" if use.what in (name, f"'{name}'") else f": {use.what}"
+    return Related(f"'{name}' {how}{quotation}", use.span)
 
 
 def _gathered(package: Package, workspace: Workspace, uses: Iterable[Use]) -> tuple[Need, ...]:

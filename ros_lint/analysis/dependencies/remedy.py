@@ -22,7 +22,7 @@ class Remedy(NamedTuple):
     """The remedy for an undeclared dependency: a tag to add, or the reason why there is none."""
 
     written: str
-    """The element to add, followed by remarks: "<depend>x</depend> (only in humble)"."""
+    """The element to add, followed by remarks: "<depend>x</depend> (available only in humble)"."""
     fix: Fix | None
     """The fix that adds the element.
 
@@ -103,7 +103,7 @@ def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: 
 
 
 def availability_remark(workspace: Workspace, name: str) -> str:
-    """Return a remark if a name does not resolve in every needed distribution, such as " (only in humble)", else "".
+    """Return a remark if a name does not resolve in every needed distribution, such as " (available only in humble)", else "".
 
     The name has to resolve in the distributions that the user chose, or in every active one if the user chose none.
     Packages of the workspace and of underlays resolve in all distributions.
@@ -149,11 +149,11 @@ def _find_availability(workspace: Workspace, name: str) -> _Availability:
     if not without:
         return _Availability()
     if target.explicit:
-        return _Availability(f" (not in {', '.join(without)}, only in {', '.join(distros)})", distros, without)
+        return _Availability(f" (not available in {', '.join(without)}, only in {', '.join(distros)})", distros, without)
     if target.distro in without:
-        return _Availability(f" (not in {target.distro}, only in {', '.join(distros)})", distros, (target.distro,))
+        return _Availability(f" (not available in {target.distro}, only in {', '.join(distros)})", distros, (target.distro,))
     few = len(without) < len(distros)
-    return _Availability(f" (not in {', '.join(without)})" if few else f" (only in {', '.join(distros)})")
+    return _Availability(f" (not available in {', '.join(without)})" if few else f" (available only in {', '.join(distros)})")
 
 
 def cycle_through(package: Package, workspace: Workspace, name: str) -> tuple[str, ...]:

@@ -57,8 +57,8 @@ def check(name: str, code: str) -> None:
     if owner in ("", name, "ros"):
         example = f"acme-{name.removeprefix('ros-')}"
         raise NewRuleError(
-            f"new-rule: '{name}' does not begin with a word of your own; write a name such as '{example}', because later "
-            "versions of ros-lint may use the name"
+            f"new-rule: a later version of ros-lint may have a rule '{name}'; begin the name with a word of your own, such as "
+            f"'{example}'"
         )
 
 
