@@ -87,6 +87,8 @@ def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
         elif path is not None and "$<" not in plain:
             path = next((f"{path}{suffix}" for suffix in SOURCES if f"{path}{suffix}" in run.paths.files), path)
             sources_so_far.append(path if certain else source[0] + path)
+            if run.paths.is_unlisted(path):
+                run.hide(Facet.USES, f"'{path}' is in a folder whose files are not read", run.place_of(source))
             if certain and path not in run.paths.files:
                 run.results.missing_files.append((path, run.place_of(source), bool(run.muted or run.uncertain_conditions)))
         elif HOLE in plain:
