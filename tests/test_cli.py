@@ -5,8 +5,10 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -345,6 +347,52 @@ def test_the_graph_commands_print_their_output(demo: Path) -> None:
     assert json.loads(run("graph", demo, "--format", "json", "--metrics").stdout)
     assert run("overlay", demo).returncode == 0
     assert run("order", demo / "src" / "nowhere").returncode == 2
+
+
+def test_a_file_from_standard_input_is_checked_in_its_workspace(demo: Path) -> None:
+    (demo / ".git").mkdir()
+    manifest = demo / "src" / "rover_teleop" / "package.xml"
+    text = manifest.read_text()
+    changed = text.replace("</package>", "  <depend>nav_msg</depend>\n</package>")
+
+    def check(text: str, form: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-m", "ros_lint", "--stdin-filename", str(manifest), "--format", form, *arguments]
+        return subprocess.run(command, input=text, capture_output=True, text=True, cwd=ROOT, check=False, timeout=60)
+
+    def findings(text: str) -> set[str]:
+        return {line for line in check(text, "concise").stdout.splitlines() if re.search(r" \[[a-z-]+\]$", line)}
+
+    assert all("rover_teleop/package.xml:" in line for line in findings(changed)), "findings in other files are not shown"
+    (line,) = findings(changed) - findings(text)
+    assert line.endswith("write 'nav_msgs' [unknown-dependency]")
+    assert check(changed, "concise").returncode == 1
+    assert "<depend>nav_msg</depend>" in check(changed, "text").stdout, "the frame has the unsaved text"
+    assert manifest.read_text() == text
+    process = check(text, "text", "--fix")
+    assert process.returncode == 2
+    assert process.stderr == "ros-lint: --stdin-filename and --fix cannot be combined, because the file is not saved\n"
+
+
+def test_a_watched_workspace_is_checked_after_each_change(clean: Path) -> None:
+    command = [sys.executable, "-u", "-m", "ros_lint", "--watch", "--quiet", "--format", "concise", str(clean)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=ROOT) as process:
+        stop = threading.Timer(60, process.kill)
+        stop.start()
+        try:
+            assert process.stderr is not None
+            assert process.stdout is not None
+            assert "waiting for changes" in process.stderr.readline()
+            manifest = next(clean.glob("src/*/package.xml"))
+            manifest.write_text(manifest.read_text().replace("</package>", "  <depend>nav_msg</depend>\n</package>"))
+            assert "write 'nav_msgs'" in process.stdout.readline()
+            assert "waiting for changes" in process.stderr.readline()
+            process.send_signal(signal.SIGINT)
+            process.wait()
+        finally:
+            stop.cancel()
+            process.kill()
+    assert process.returncode == 1, "the code of the last run"
+    assert run("--watch", "--fix", clean).returncode == 2
 
 
 def test_rules_schema_and_completion_are_printed() -> None:

@@ -5,7 +5,7 @@ _ros_lint() {
     check|order|why|graph|explain-package|launch|lsp|overlay|rules|rule|new-rule|index|cache|schema|completion) [ "$COMP_CWORD" = 1 ] || command=${COMP_WORDS[1]} ;;
   esac
   case $command in
-    check) words="-h --help --distro --underlay --select --extend-select --ignore --pedantic --fail-on --min-severity --exclude --context --no-context --packages-select --packages-up-to --packages-above --packages-select-regex --packages-skip --baseline --since --plugins --jobs --cache --no-cache --format --output --rule-url --color --write-baseline --fix --unsafe-fixes --fix-only --show-fixes --diff --config --isolated --show-settings --statistics -q --quiet --progress --no-progress" ;;
+    check) words="-h --help --distro --underlay --select --extend-select --ignore --pedantic --fail-on --min-severity --exclude --context --no-context --packages-select --packages-up-to --packages-above --packages-select-regex --packages-skip --baseline --since --plugins --jobs --cache --no-cache --format --output --rule-url --color --write-baseline --fix --unsafe-fixes --fix-only --show-fixes --diff --watch --stdin-filename --config --isolated --show-settings --statistics -q --quiet --progress --no-progress" ;;
     order) words="-h --help --format --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress" ;;
     why) words="-h --help --explain-silence --format -C --workspace --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress" ;;
     graph) words="-h --help --distro --underlay --config --isolated --jobs --cache --no-cache --exclude --progress --no-progress --format --focus --depth --external --edges --reduce --metrics" ;;

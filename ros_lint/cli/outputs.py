@@ -5,14 +5,17 @@ from __future__ import annotations
 import os
 import re
 import sys
-from functools import partial
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from ros_lint.base.text import Text, read
 from ros_lint.base.tree import text_of
 from ros_lint.cli.session import UsageError
 from ros_lint.reporters import FORMATS
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from ros_lint.cli.session import Request
     from ros_lint.cli.settings import Settings
     from ros_lint.engine.report import Report
@@ -44,19 +47,26 @@ def _files(settings: Settings) -> list[tuple[str, str]]:
     return [(form, path) if form in FORMATS and path else ("", value) for (form, _, path), value in pairs]
 
 
-def print_report(report: Report, request: Request) -> int:
+def print_report(report: Report, request: Request, unsaved: Mapping[str, bytes] = MappingProxyType({})) -> int:
     """Write a report to the files of ``--output``, and print it unless one of these files replaces standard output.
 
-    Return 2 if a file cannot be written, else 0.
+    ``unsaved`` has contents of files, by path, that replace those on disk. Return 2 if a file cannot be written, else 0.
     """
     settings = request.settings
+
+    def render(form: str, style: Style) -> bytes:
+        def texts(path: str) -> Text | None:
+            return read(path, unsaved[path]) if path in unsaved else text_of(request.disk, path)
+
+        return _render(report, request, form, style, texts)
+
     report = report._replace(rule_url=settings["rule-url"])
     files = _files(settings)
     code = 0
     for form, path in files:
-        code = max(code, _write(path, _render(report, request, form or settings["format"], _style(settings, path))))
+        code = max(code, _write(path, render(form or settings["format"], _style(settings, path))))
     if all(form for form, _ in files):
-        sys.stdout.buffer.write(_render(report, request, settings["format"], _style(settings)))
+        sys.stdout.buffer.write(render(settings["format"], _style(settings)))
         sys.stdout.buffer.flush()
     return code
 
@@ -72,8 +82,7 @@ def _write(path: str, data: bytes) -> int:
     return 0
 
 
-def _render(report: Report, request: Request, form: str, style: Style) -> bytes:
-    texts: SourceTexts = partial(text_of, request.disk)
+def _render(report: Report, request: Request, form: str, style: Style, texts: SourceTexts) -> bytes:
     shown = report
     if form in ("text", "concise"):
         shown, texts = _relative_to_current_folder(request.base, report, texts)

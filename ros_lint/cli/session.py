@@ -193,7 +193,8 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
 
 _WITHOUT_EFFECT = frozenset((
     "baseline", "cache", "color", "config", "diff", "fail-on", "fix", "format", "isolated", "jobs", "output", "progress",
-    "quiet", "rule-url", "show-settings", "since", "statistics", "unsafe-fixes", "write-baseline",
+    "fix-only", "quiet", "rule-url", "show-fixes", "show-settings", "since", "statistics", "stdin-filename", "unsafe-fixes",
+    "watch", "write-baseline",
 ))  # fmt: skip
 """Settings that do not affect a report. Of ``config``, the path does not; the settings in the file are compared themselves."""
 

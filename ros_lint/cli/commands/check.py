@@ -31,6 +31,8 @@ def run(options: Mapping[str, Any]) -> int:
         print(f"ros-lint {__version__}")
         return 0
     progress = Progress(sys.stderr, wanted=options.get("progress", True))
+    code = 0
+    unsaved: Mapping[str, bytes] = {}
     try:
         with progress:
             request = parse_request(options, os.environ)
@@ -39,13 +41,21 @@ def run(options: Mapping[str, Any]) -> int:
                 print(request.settings.show(), end="")
                 return 0
             outputs.validate(request.settings)
+            if request.settings["watch"]:
+                from ros_lint.cli.commands import watch  # noqa: PLC0415
+
+                return watch.run(options, request, run)
             known_findings = _baseline(request.settings)
-            if request.settings["fix"] or request.settings["diff"]:
+            if request.settings["stdin-filename"]:
+                from ros_lint.cli.commands import stdin_file  # noqa: PLC0415
+
+                request, report, unsaved = stdin_file.check(options, progress.update)
+            elif request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
 
                 report, code = fix.run(open_session(request, progress.update))
             else:
-                report, code = _report(request, progress), 0
+                report = _report(request, progress)
             if request.settings["since"]:
                 from ros_lint.cli.since import only_new  # noqa: PLC0415
 
@@ -63,7 +73,7 @@ def run(options: Mapping[str, Any]) -> int:
         return max(code, exit_code(report, request.settings["fail-on"]))
     if not report.packages:
         print(no_packages(request), file=sys.stderr)
-    written = outputs.print_report(report, request)
+    written = outputs.print_report(report, request, unsaved)
     return max(code, written, exit_code(report, request.settings["fail-on"]))
 
 
