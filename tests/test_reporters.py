@@ -154,10 +154,10 @@ def test_statistics_count_the_findings_of_each_rule() -> None:
 @pytest.mark.parametrize("form", ["text", "concise", "github"])
 def test_what_pedantic_adds_is_counted_by_rule(form: str) -> None:
     got = reporter(form)(EVERYTHING, texts, Style())
-    assert "10 more with --pedantic: transitive-dependency 6, undeclared-dependency 3, dead-group 1" in got
+    assert "10 more findings with --pedantic: transitive-dependency 6, undeclared-dependency 3, dead-group 1" in got
     many = HiddenCount(OFF, 8, tuple((f"rule-{n}", 2 if n < 2 else 1) for n in range(6)))
     got = reporter(form)(EVERYTHING._replace(hidden=(many,)), texts, Style())
-    assert "8 more with --pedantic: rule-0 2, rule-1 2, rule-2 1, rule-3 1, rule-4 1, other rules 1" in got
+    assert "8 more findings with --pedantic: rule-0 2, rule-1 2, rule-2 1, rule-3 1, rule-4 1, other rules 1" in got
 
 
 @pytest.mark.parametrize("form", ["text", "concise", "github"])

@@ -94,7 +94,7 @@ def limits(report: Report) -> Iterator[str]:
         by_rule = [f"{name} {number}" for name, number in more.most_common(_NAMED)]
         if others := sum(number for _, number in more.most_common()[_NAMED:]):
             by_rule.append(f"other rules {others}")
-        yield f"{more.total()} more with --pedantic: {', '.join(by_rule)}"
+        yield f"{count(more.total(), 'more finding')} with --pedantic: {', '.join(by_rule)}"
     if kinds := [hidden_findings(hidden) for hidden in report.hidden if not hidden.rules]:
         yield f"Hidden: {'; '.join(kinds)}"
     if report.not_cloned:

@@ -33,7 +33,7 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
     if not outside:
         return
     first, *others = outside.values()
-    are, them = (f" and {len(others)} more are", "them") if others else (" is", "it")
+    are, them = (f" and {len(others)} more component{'s' if others[1:] else ''} are", "them") if others else (" is", "it")
     yield Finding(
         f"'{first.name}'{are} registered in a function or subfolder, so ament_package() does not write {them} to the "
         f"ament index; register {them} in the top CMakeLists.txt, outside functions",

@@ -161,10 +161,11 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
     name = path[-1]
     if _comes_by_design(package, workspace, need, path):
         confidence = Confidence.LOW
-    between = " through ".join(f"'{package_between}'" for package_between in path[:-1])
+    first, *between = [f"'{package_between}'" for package_between in path[:-1]]
+    origin = f"{first} through {' and '.join(between)}" if between else first
     proposal = dependencies.remedy(package, workspace, name, need.role)
     return Finding(
-        f"'{name}' is used here, but package.xml does not declare it; it comes with {between}{proposal.ending}",
+        f"'{name}' is used here, but package.xml does not declare it; it comes with {origin}{proposal.ending}",
         best.span,
         name,
         first_related(dependencies.use_note(name, use) for use in others),

@@ -97,7 +97,7 @@ def _of_python(package: Package) -> Iterator[Finding]:
     files = [file for file in package.files if file.endswith(suffixes) and names.interfaces.defined_in(file)]
     if tag is None or not files:
         return
-    others = f" and {len(files) - 1} more" if len(files) > 1 else ""
+    others = f" and {len(files) - 1} more file{'s' if files[2:] else ''}" if len(files) > 1 else ""
     yield Finding(
         f"no code is generated for '{files[0]}'{others}, because ament_python cannot generate interfaces; move "
         f"{'them' if others else 'it'} to an ament_cmake package",
@@ -151,7 +151,7 @@ _MANY = 5
 
 def _of_many(package: Package, calls: list[Call], files: list[str]) -> Finding:
     return Finding(
-        f"'{files[0]}' and {len(files) - 1} more are not listed in {_GENERATE}(), so no code is generated for them; "
+        f"'{files[0]}' and {len(files) - 1} more files are not listed in {_GENERATE}(), so no code is generated for them; "
         "add or remove them",
         calls[0].name_span,
         f"{files[0].partition('/')[0]}/",

@@ -216,7 +216,7 @@ def _qualified(used: _Used, package: Package, workspace: Workspace) -> str:
     ]
     if not owners:
         return ""
-    message = f"'{used.maker}' does not generate '{used.name}', and a type without a package name belongs to the same package"
+    message = f"'{used.name}' means '{used.maker}/{used.name}', which '{used.maker}' does not generate"
     return message + names.did_you_mean(owners[:2])
 
 
