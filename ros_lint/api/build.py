@@ -2,7 +2,6 @@
 
 from ros_lint.analysis.build.build_types import build_types
 from ros_lint.analysis.build.commands import (
-    ENDS,
     EXPORTING_PLUGINS,
     FINDS_TESTS,
     LINTERS,
@@ -39,6 +38,7 @@ from ros_lint.analysis.build.targets import (
 )
 from ros_lint.analysis.build.xmllint import runs_xmllint
 from ros_lint.analysis.headers import EXPORTING_LIBRARIES, Includes, OwnHeaders, own_headers, related_includes
+from ros_lint.facts.build import ENDS
 from ros_lint.workspace.build_scripts.resources import uninstalled_resources
 from ros_lint.workspace.usage.unused_find_package import generated_from
 

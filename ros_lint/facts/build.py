@@ -332,3 +332,6 @@ class BuildScript(NamedTuple):
 
 NOTHING_BUILT: Final = BuildScript("")
 """Result in place of the build script for a package that has no build script."""
+
+ENDS: Final = ("ament_package", "ament_auto_package")
+"""Commands that write the CMake configuration and the exports of a package. They come last in a CMakeLists.txt."""

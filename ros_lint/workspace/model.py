@@ -12,7 +12,7 @@ from ros_lint.base.by_name import ByName
 from ros_lint.base.paths import join, resolve, strip_folder
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.manifest import conditions
-from ros_lint.facts.build import NOTHING_BUILT, BuildScript, UninstalledImport
+from ros_lint.facts.build import ENDS, NOTHING_BUILT, BuildScript, UninstalledImport
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.interfaces import InterfaceFile
 from ros_lint.facts.launch import LaunchFile
@@ -164,7 +164,14 @@ class Package(NamedTuple):
 
     @property
     def builds_with(self) -> str:
-        """Build type without "ros.": ament_cmake, ament_python, cmake ..."""
+        """Build type that the package is written for, without "ros.": ament_cmake, ament_python, cmake ...
+
+        It differs from ``type`` if package.xml has no build type or is rejected: colcon then assumes catkin or cmake, but the
+        call of ``ament_package()`` shows that the package is written for ament_cmake.
+        """
+        assumed = self.manifest is not None and self.type in ("ros.catkin", "cmake")
+        if assumed and not set(ENDS).isdisjoint(self.built.commands.names) and not self.declares("catkin"):
+            return "ament_cmake"
         return self.type.removeprefix("ros.")
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from ros_lint.collectors.cmake.released_macros import INSTALL_ARTIFACTS, INSTALL_TARGETS_WORDS
-from ros_lint.facts.build import BuildScript
+from ros_lint.facts.build import ENDS, BuildScript
 from ros_lint.facts.cmake import Call
 from ros_lint.facts.manifest import Role
 from ros_lint.facts.visibility import Facet, Opaque
@@ -63,9 +63,6 @@ def installed_targets(call: Call) -> tuple[int, ...]:
     words = (at for at, text in enumerate(texts) if text in INSTALL_ARTIFACTS or text in INSTALL_TARGETS_WORDS)
     return tuple([at for at in range(1, next(words, len(texts))) if texts[at] != "TARGETS"])
 
-
-ENDS = ("ament_package", "ament_auto_package")
-"""Commands that write the CMake configuration and the exports of a package. They come last in a CMakeLists.txt."""
 
 REGISTERING = ("rclcpp_components_register_node", "rclcpp_components_register_nodes")
 """Commands that register components. Their first argument is the library that contains the components."""
