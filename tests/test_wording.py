@@ -64,7 +64,7 @@ def _unquoted_names(message: str) -> list[str]:
     [
         ("robot.talk imports 'auction'", ["robot.talk"]),
         ("'lib/robot/talk.py' imports 'words', but scripts/words.py is not installed to lib/robot", ["scripts/words.py"]),
-        ("a::b needs 'a', but there is no find_package() for it; add find_package(a REQUIRED) earlier", ["a::b"]),
+        ("a::b needs 'a', but there is no find_package() for it; add find_package(a REQUIRED) before this use", ["a::b"]),
         ("there is no package nav_msg; did you mean 'nav_msgs'?", ["nav_msg"]),
         ("<depend>nav_msgs</depend> is declared twice; write robot.a:main", []),
         ("'talker' is installed to bin/, where ros2 run does not find it; install it to lib/robot", []),

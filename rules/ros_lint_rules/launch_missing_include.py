@@ -352,8 +352,8 @@ def _owner(package: Package, path: str, workspace: Workspace) -> str:
         if any(provided.path == f"share/{other.name}/{path}" for provided in other.built.products.installs)
     }
     if package.name in owners:
-        return f"; it exists in '{package.name}'"
-    return f"; it exists in '{owners.pop()}'" if len(owners) == 1 else ""
+        return f"; did you mean '{package.name}', which installs it?"
+    return f"; did you mean '{owners.pop()}', which installs it?" if len(owners) == 1 else ""
 
 
 def _hint(path: str, all_names: tuple[str, ...]) -> str:

@@ -83,7 +83,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         sure = along is not None and name not in along and name not in probable
         why = "but there is no find_package() for it" if sure else "but only another package calls find_package() for it"
         yield Finding(
-            f"{what} needs '{name}', {why}; add find_package({name} REQUIRED) earlier",
+            f"{what} needs '{name}', {why}; add find_package({name} REQUIRED) before this use",
             first.span,
             name,
             first_related(place for _, place in others),

@@ -50,7 +50,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         reported.add(folder)
         effect = (
-            "CMake stops in packages that link its targets" if severity is Severity.ERROR else "dependents do not find headers"
+            "CMake stops in packages that link its targets"
+            if severity is Severity.ERROR
+            else "packages that use this package do not find headers"
         )
         yield Finding(
             f"'{folder}' is exported as an include directory, but nothing is installed there, so {effect}; "
