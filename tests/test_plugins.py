@@ -174,12 +174,12 @@ def test_a_rule_of_a_plugin_that_is_not_loaded_names_the_option(demo: Path, tmp_
     assert process.returncode == 2
     assert (
         process.stderr
-        == "ros-lint: ros-lint.toml: severity: unknown rule 'mine'; rules of installed plugins ('mine 1.0') need --plugins\n"
+        == "ros-lint: ros-lint.toml:2: severity: unknown rule 'mine'; rules of installed plugins ('mine 1.0') need --plugins\n"
     )
     process = run(tmp_path, demo)
     assert (
         process.stderr
-        == "ros-lint: ros-lint.toml: severity: unknown rule 'mine'; if a plugin has it, install the plugin and add --plugins\n"
+        == "ros-lint: ros-lint.toml:2: severity: unknown rule 'mine'; if a plugin has it, install the plugin and add --plugins\n"
     )
     assert "unknown rule 'mime'; did you mean 'mine'?\n" in run(tmp_path / "site", "rule", "mime", "--plugins").stderr
 

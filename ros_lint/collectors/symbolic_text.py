@@ -180,7 +180,7 @@ def is_plain(text: str) -> bool:
 
 
 def is_settled(text: str) -> bool:
-    """Return whether a text has no marks except for install places of packages and for the folder of the launch file."""
+    """Return whether a text is known before launch, except for install prefixes of packages and the folder of the launch file."""
     return text.isascii() or not _UNSETTLED.search(text)
 
 

@@ -142,7 +142,7 @@ class Reach:
         return followers
 
     def _explore(self, root: str) -> int:
-        """Return the closure of ``root`` as bits. Also store it, with the closures of all names that ``root`` provides.
+        """Return the transitive dependencies of ``root`` as bits, and store those of ``root`` and of all names in the result.
 
         The names in a cycle share one closure. The algorithm is that of Tarjan, without recursion.
         """

@@ -125,7 +125,7 @@ def parse(fields: list[str]) -> ReleasedContents:
 
 
 def render(package: ReleasedContents) -> str:
-    """Return the line for the contents of a package, without line end. The inverse of :func:`parse`."""
+    """Return the line of a data file that lists what a released package contains, without line end. :func:`parse` reads it."""
     fields = [package.name, package.origin]
     for letter in LETTERS.values():
         names = package.fields.get(letter, ())

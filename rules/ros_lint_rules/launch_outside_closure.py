@@ -131,9 +131,9 @@ def _is_in_every_branch(name: str, reference: LaunchReference, package: Package)
 
 
 def _place(best: LaunchReference, others: Sequence[LaunchReference]) -> Span:
-    """Return the place of the finding: the place of the package name in the reference ``best``.
+    """Return the place of the finding, given the reference to report first (``best``) and the other references.
 
-    If one look-up of the package serves several files, the result is the place of the file name instead.
+    It is the place of the package name. If several references share this place, it is the place of the file name.
     """
     is_shared = any(other.package_span == best.package_span and other.name != best.name for other in others)
     return best.span if is_shared and best.kind in ("include", "file") else best.package_span

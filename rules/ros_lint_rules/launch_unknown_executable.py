@@ -91,9 +91,9 @@ class _Missing(NamedTuple):
 
 
 def _missing(owner: str, name: str, starting: Package, workspace: Workspace) -> _Missing | None:
-    """Return the hint if package ``owner`` does not install the executable ``name``, else None.
+    """Return the problem, with a suggestion, if package ``owner`` does not install the executable ``name``; else None.
 
-    ``starting`` is the package of the launch file.
+    ``starting`` is the package of the launch file: only packages of its workspace are suggested.
     """
     owners = workspace.by_name.get(owner, ())
     other = launch.only_installer([name], starting, workspace)

@@ -32,7 +32,7 @@ Not reported:
 - `ament_python`, if it is a package of the workspace.
 
 If the distribution is not set, one info for the workspace names the packages that call a removed CMake command. It is not
-reported if the repository names only distributions that have the command.
+reported if the repository names only distributions that have the command, or if a file cannot be read.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def _if_newer(name: str, callers: Sequence[tuple[Package, list[Call]]], workspac
     The user has not chosen the distribution, so the packages may be built for an older one.
     """
     named = {named.distro for named in workspace.named_distros}
-    if not callers or (named and not named & _REMOVED[name][1]):
+    if not callers or workspace.unread() or (named and not named & _REMOVED[name][1]):
         return
     (first, calls), *others = callers
     subject = f"'{first.name}' calls" if not others else f"{len(callers)} packages call"

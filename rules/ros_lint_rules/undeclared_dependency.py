@@ -236,7 +236,10 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, pr
 
 
 def _misplaced_names(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return the needed packages that only dependencies with the wrong tag provide."""
+    """Return the names of used packages that come only with a dependency whose tag does not fit the use.
+
+    Example: the package is used to build, but comes with an ``<exec_depend>``.
+    """
     return frozenset([lack.need.name for lack in dependencies.misplaced(package, workspace)])
 
 
@@ -350,9 +353,9 @@ def _leftover(package: Package, workspace: Workspace, need: dependencies.Need) -
 
 
 def _unused_find(package: Package, workspace: Workspace, need: dependencies.Need) -> str:
-    """Return the find_package() of a package that no code uses, as text for a message.
+    """Return the call find_package() that finds a package which no code uses, as text for a message.
 
-    The build script may link the found package (``need``). The result is "" if code may use it, if anything else may need it,
+    ``need`` is the found package, and only the build script names it. The result is "" if code or anything else may use it,
     or if ``package`` builds no targets.
     """
     if workspace.unread() or not dependencies.is_build_visible(package) or not package.built.products.targets:
@@ -449,9 +452,9 @@ def _suggestion(name: str, workspace: Workspace) -> str:
 
 
 def _module_of_declared_name(package: Package, name: str, use: Use) -> str:
-    """Return the module that ``use`` imports from package ``name`` if the module is called like another, declared package.
+    """Return the imported module if package.xml declares its name, although package ``name`` contains the module.
 
-    The result is "" if it is not, or if ``use`` is not an import.
+    Example: ``import yaml`` of 'python3-yaml' while a package 'yaml' is declared. The result is "" for other uses.
     """
     module = use.name.partition(".")[0] if use.via == "import" else ""
     return module if module != name and package.tags(module) else ""

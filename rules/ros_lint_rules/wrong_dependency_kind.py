@@ -152,7 +152,7 @@ def _wrong(package: Package, workspace: Workspace) -> Iterator[_Wrong]:
 
 
 def _is_for_all(declared: Declared) -> bool:
-    """Return whether a tag covers every use, or may do so: it is <depend>, or it has a condition."""
+    """Return whether a tag is right for every use: it is <depend>. A tag with a condition counts, because it is not judged."""
     return declared.depend.tag == "depend" or not declared.always
 
 

@@ -128,7 +128,7 @@ def _availability(workspace: Workspace, name: str) -> _Availability:
 
 @cached_by_workspace
 def _availabilities(workspace: Workspace) -> dict[str, _Availability]:  # noqa: ARG001  (the key of the cache)
-    """Return the cache of :func:`_availability`, by name."""
+    """Return the cache of a workspace: whether packages and rosdep keys are available in its distributions, by name."""
     return {}
 
 

@@ -120,8 +120,9 @@ _HOLDS_SOURCES = re.compile(r"(?:-D)?(\w+)=[\\\"]*\$\{\w*_SOURCE_DIR\}")
 def _read_in_sources(package: DiscoveredPackage, uninstalled: Mapping[str, Sequence[str]], referring: _Texts) -> Iterator[str]:
     """Yield the ``uninstalled`` folders that code probably reads from the source tree, because a file contains their source path.
 
-    Examples of the path are ``/home/me/src/robot/maps/hall`` and ``"src", "robot", "maps"``. A path with slashes in a file
-    of the folder itself does not count, because xacro writes the path of its input into the generated model.
+    Examples of the path are ``/home/me/src/robot/maps/hall`` and ``"src", "robot", "maps"``. ``referring`` are the texts to
+    search. A path with slashes does not count in a file of that same folder: xacro writes the path of its input into the
+    model that it generates, and both are often in one folder.
     """
     if not uninstalled:
         return

@@ -184,7 +184,11 @@ def _python(run: Run, args: list[str]) -> None:
 
 
 def _scripts(run: Run, args: list[str]) -> None:
-    """Run ``ros_lint_console_scripts(destination setup.cfg)``: record the console_scripts of setup.cfg as programs."""
+    """Record the console_scripts of a setup.cfg as programs that are installed into a folder.
+
+    The arguments are the folder and the setup.cfg. ros-lint calls this command in its own definition of
+    ``ament_python_install_package()``.
+    """
     path = run.paths.source(args[1])
     text = run.paths.sources.texts.get(path) if path is not None else None
     destination = run.paths.destination(args[0])

@@ -30,7 +30,7 @@ class Definition(NamedTuple):
 
 
 class ScopeBlock(NamedTuple):
-    """A ``block()``, which has its own scope of variables: its first command, and the commands before its ``endblock()``."""
+    """A ``block()`` command with the commands between it and its ``endblock()``. A block has its own scope of variables."""
 
     command: Command
     body: Body

@@ -84,7 +84,8 @@ def reversible(value: int) -> int:
 def reversible_if_configurable(value: int, run: Run, *tokens: ConditionToken) -> Truth:
     """Return the truth value of a condition, given ``value``, its value with default options.
 
-    If the user can change the value of a word of the condition (``tokens``), TRUE becomes LIKELY and FALSE becomes UNLIKELY.
+    ``*tokens`` are the words of the condition. If one is an option that the user can change, TRUE becomes LIKELY (true by
+    default) and FALSE becomes UNLIKELY (false by default).
     """
     configurable = any(token.configurable or (not token.quoted and run.is_configurable(token.text)) for token in tokens)
     return Truth(reversible(value) if configurable else value)

@@ -167,7 +167,9 @@ def _process(walker: Walker, launch_object: LaunchObject, conditions: Conditions
 
 
 def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
-    """Return the texts in the arguments ``names`` of a node, which are lists or dictionaries, and in ``prefix`` and ``cwd``.
+    """Return the texts that the Python arguments ``*names`` of a node contain, and those of ``prefix`` and ``cwd``.
+
+    The arguments ``*names``, such as ``arguments`` and ``additional_env``, are lists or dictionaries.
 
     Each text is paired with a name: "" in ``arguments`` and ``ros_arguments``, the variable (``$A``) in a dictionary of
     environment variables, else the name of the argument.
