@@ -197,7 +197,7 @@ _TRUTH = _Choices((False, True))
 
 
 class _Members:
-    """Members of an enumeration of integers. For a Flag, combinations of members are also encoded."""
+    """The column type for members of an enumeration: each is encoded as its integer. Combinations of flags are allowed."""
 
     def __init__(self, enumeration: type[Enum]) -> None:
         self._enumeration: Callable[[int], Enum] = enumeration

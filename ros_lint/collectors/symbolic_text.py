@@ -453,7 +453,10 @@ def open_arguments(text: str) -> tuple[str, ...]:
 
 
 def with_open_arguments(text: str, values: Mapping[str, str], evaluate: Callable[[str], str]) -> str:
-    """Return a text in which the open arguments are replaced by ``values``, and expressions with them are evaluated."""
+    """Return a text in which launch arguments that were left open get ``values``, by name.
+
+    Expressions with these arguments are replaced by their results, which ``evaluate`` returns.
+    """
     text = _OPEN_ARGUMENT.sub(lambda match: values.get(match[1], UNKNOWN), text)
     while match := _INNER_OPEN_EXPRESSION.search(text):
         value = evaluate(match[1]) if is_settled(match[1]) else UNKNOWN

@@ -182,9 +182,10 @@ def by_import(world: Layers, module: str) -> Providers:
 
 
 def _with_released(world: Layers, module: str, packages: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the workspace packages with a Python module. A released package named like the module is added.
+    """Return the packages that provide a Python module, best first, given those of the workspace (``packages``).
 
-    It comes first if it certainly has the module, last if it may have the module, and is left out otherwise.
+    The released package with the name of the module comes first if it certainly has the module, last if it may have it, and
+    is left out if it lacks it.
     """
     if module in packages or world.layer(module) == "workspace":
         return packages

@@ -104,9 +104,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _message_if_carrying(package: Package, name: str, carried: dependencies.LostProvision) -> str:
-    """Return the message for the unused dependency ``name``.
+    """Return the message for the unused dependency ``name``, which must not simply be removed.
 
-    ``carried``: a package that is used but not declared, and that only ``name`` provides.
+    ``carried`` is a package that is used but not declared. It is available only because ``name`` depends on it.
     """
     if carried.package == package.name:
         return f"'{name}' is not used, only its dependency '{carried.name}'; declare '{carried.name}' instead"

@@ -107,10 +107,10 @@ def has_programs(world: World, name: str) -> bool:
 
 
 def usage_is_visible(package: Package, workspace: Workspace, name: str) -> bool:
-    """Return whether the sources of a package must name the dependency ``name`` if they use it.
+    """Return whether every use of the dependency ``name`` in the sources of a package would be visible to ros-lint.
 
-    The result is True if ``name`` is a released package with interfaces, or if it has Python modules but no programs and
-    ``package`` has no file that can contain Python code.
+    That is so in two cases. If the dependency is a released package with interfaces, sources name it to use them. If it only
+    has Python modules, and the package has no Python code, the package cannot use it at all.
     """
     world = workspace.world
     released = world.released(name)

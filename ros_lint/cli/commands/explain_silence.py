@@ -15,7 +15,7 @@ from ros_lint.workspace.model import Package, Workspace
 def run(workspace: Workspace, name: str, dependency: str) -> tuple[str, str, int]:
     """Return standard output, standard error and the exit code: 2 if the workspace has no package ``name``, else 0.
 
-    ``dependency`` is the name of a package or a rosdep key.
+    The output explains why the rules report nothing about ``dependency``, a package or rosdep key, in the package ``name``.
     """
     packages = workspace.called(name)
     if not packages:

@@ -12,7 +12,7 @@ from ros_lint.errors import UserError
 
 
 def run(command: str, options: Mapping[str, Any]) -> int:
-    """Run ``command``, print its output and return the exit code."""
+    """Run ``ros-lint rules``, ``rule``, ``schema`` or ``completion`` with the parsed options, and return the exit code."""
     match command:
         case "rules" | "rule":
             return _rules(options)

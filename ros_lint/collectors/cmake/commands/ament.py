@@ -382,9 +382,10 @@ def _vendor(run: Run, args: list[str]) -> None:
 
 
 def _tests(run: Run, args: list[str]) -> None:
-    """Run ``add_test()``, or ``ros_lint_runs()``, which replaces add_test() in the reduced macros of released packages.
+    """Record the files and folders in the arguments of ``add_test()`` as tests that run without being compiled.
 
-    Files and folders among the arguments are recorded as tests that run without being compiled.
+    The same is done for ``ros_lint_runs()``: the macros of released packages, as ros-lint stores them, call it in place of
+    ``add_test()``.
     """
     for arg in args:
         path = run.paths.source(strip_mark(arg)[0])

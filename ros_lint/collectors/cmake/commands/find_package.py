@@ -176,9 +176,10 @@ def _packages_used(run: Run, args: list[str]) -> None:
 
 
 def _quotation(how: str, name: str) -> str:
-    """Return the text of a command for messages, with the package ``name`` as its last argument; "" if ``how`` is "-".
+    """Return a CMake command as text for messages, with the package ``name`` as its last argument.
 
-    ``("ament_target_dependencies ...", "rclcpp")`` gives ``ament_target_dependencies(... rclcpp)``.
+    ``how`` is the command with its first arguments, or "-" for an empty result. Example: "ament_target_dependencies ..." and
+    "rclcpp" give ``ament_target_dependencies(... rclcpp)``.
     """
     command, _, words = how.partition(" ")
     return "" if how == "-" else f"{command}({words} {name})".replace("( ", "(")

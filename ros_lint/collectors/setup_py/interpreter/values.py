@@ -107,7 +107,7 @@ def _undecided(value: Value, tests: Mapping[tuple[str, ...], ast.expr]) -> Unkno
 
 
 class Deciding:
-    """Chooses the alternatives of values that hold under given conditions, for the options of a call of setup()."""
+    """Chooses, for the options of a call of setup(), the possible values that do not contradict the conditions of the call."""
 
     def __init__(self, conditions: Conditions, tests: Mapping[tuple[str, ...], ast.expr]) -> None:
         self._conditions = conditions
