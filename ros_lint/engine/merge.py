@@ -62,10 +62,10 @@ class _DistroFindings:
         return frozenset([*subjects, *((package, rule, "") for package, rule, _ in subjects)])
 
     def accepts(self, entry: Consequence, issue: Issue) -> bool:
-        """Return whether a merged finding may explain the findings that ``entry`` describes, judging by this distribution.
+        """Return whether a finding that is merged from several distributions may explain the consequences ``entry``.
 
-        ``issue`` is the part of the merged finding for this distribution. It must explain these findings too, unless this
-        distribution has no such finding.
+        ``issue`` is the finding in this distribution. The result is True if ``issue`` itself explains them, or if this
+        distribution has no finding that ``entry`` describes.
         """
         return entry in issue.finding.explains or (issue.package, entry.rule, entry.subject) not in self._subjects
 

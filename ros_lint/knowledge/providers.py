@@ -347,8 +347,8 @@ def _in_underlay(world: Layers, owners: Sequence[tuple[str, ...]]) -> tuple[str,
 def _existing(world: Layers, names: Iterable[str], keys: Iterable[str] = ()) -> Providers:
     """Return the packages and keys among ``names``: existing packages, and existing rosdep keys that are also in ``keys``.
 
-    Keys without a rule for the distribution come after all others, because a declared name must resolve. Packages that
-    only other distributions have, such as ``fastrtps``, the former name of ``fastdds``, come last.
+    The order is: packages and keys that resolve, then keys without a rule for the distribution, then packages that only other
+    distributions have, such as ``fastrtps``, the former name of ``fastdds``.
     """
     ordered = dict.fromkeys(name for name in names if name != NOTHING_NEEDED)
     allowed = set(keys)

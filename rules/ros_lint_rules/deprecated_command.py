@@ -78,7 +78,7 @@ def _dashed(keys: Sequence[Problem]) -> Finding:
     """Return one finding for all deprecated keys of setup.cfg, those with a dash in their name."""
     first, *others = keys
     better = " and ".join(f"'{key}'" for key in dict.fromkeys(key.subject.replace("-", "_") for key in keys))
-    fix = Fix(f"write {better}", tuple(Edit(key.span, key.subject.replace("-", "_")) for key in keys))
+    fix = Fix(f"write {better} in setup.cfg", tuple(Edit(key.span, key.subject.replace("-", "_")) for key in keys))
     dashed = " and ".join(f"'{key}'" for key in dict.fromkeys(key.subject for key in keys))
     what = f"the keys {dashed} are" if others else f"the key {dashed} is"
     related = first_related(Related(f"the key '{key.subject}' is also deprecated", key.span) for key in others)

@@ -106,7 +106,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 
 
 def _is_in_example(reference: LaunchReference) -> bool:
-    """Return whether a reference is in a launch file that is called only example or test: users start it by hand."""
+    """Return whether a reference is in ``example.launch.py`` or ``test.launch.py``: users start such files by hand."""
     return reference.span.path.rpartition("/")[2].partition(".")[0] in ("example", "test")
 
 

@@ -91,7 +91,7 @@ def _format(manifest: Manifest, named: manifests.NamedSchema | None) -> Iterator
             f"package_format{manifest.format}.xsd",
             named.span,
             "format",
-            fix=Fix.of(f"write package_format{manifest.format}.xsd", Edit(named.span, str(manifest.format))),
+            fix=Fix.of(f"name the schema package_format{manifest.format}.xsd", Edit(named.span, str(manifest.format))),
         )
 
 

@@ -146,8 +146,8 @@ def _builds_in_sources(package: Package) -> bool:
 def _hint(package: Package, path: str) -> str:
     """Return the suggestion for a missing file: the only file of the package with its name, or a similar name in its folder.
 
-    For a keyword of install() that is repeated, such as FILES, the result says to write it only once. It is "" if there is no
-    suggestion.
+    A repeated keyword of install(), such as ``FILES FILES a.txt``, is read as a path, too: then the suggestion is to write it
+    once. The result is "" if there is no suggestion.
     """
     if path in _KINDS_OF_INSTALL:
         return f"; CMake reads a repeated {path} as a path, so write it only once"

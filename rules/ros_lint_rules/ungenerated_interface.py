@@ -134,7 +134,7 @@ def _finding(
     if required and f"{names.interfaces.defined_in(file).partition('/')[0]}/{required}" in package.built.products.interfaces:
         remedy = f"'{required}' replaces it, so remove the file"
     elif rejection and not required:
-        remedy = f"remove the file, or correct this error and add it: {rejection}"
+        remedy = f"remove the file; to generate it, first correct the error in it: {rejection}"
     return Finding(
         f"'{file}' is not listed in {_GENERATE}(), so no code is generated for it; {remedy}",
         calls[0].name_span,

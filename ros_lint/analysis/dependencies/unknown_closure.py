@@ -20,7 +20,7 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace, *, impr
     - Unknown packages that are named like packages of interfaces (``*_msgs``) provide only interfaces.
     - Only unknown packages that are named like build tools or linters provide build tools and linters.
     - Any unknown package may provide a library.
-    - A package that few released packages provide is not provided by an unknown package with a quite different name.
+    - If few released packages depend on ``name``, an unknown package with a quite different name does not depend on it.
     """
     if name in workspace.by_name:
         return False

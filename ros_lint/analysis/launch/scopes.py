@@ -33,9 +33,10 @@ def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
 def _includes(
     actions: Sequence[LaunchAction], scope: tuple[LaunchAction, ...], position: int, *, leaves: bool
 ) -> Iterator[PlacedInclude]:
-    """Yield the includes in ``actions``, also in groups. ``actions`` begin at the index ``position`` of ``scope``.
+    """Yield the includes in ``actions``, also in groups.
 
-    ``leaves`` is True if a configuration that is set in ``scope`` is still set at the end of the launch file.
+    ``scope`` has all actions that share their launch configurations, in order, and ``position`` is the index of the first of
+    ``actions`` in it. ``leaves`` is True if a configuration that is set in ``scope`` is still set at the end of the launch file.
     """
     for action in actions:
         after = position + 1 + (sum(1 for _ in walk_actions(action.children)) if action.children else 0)

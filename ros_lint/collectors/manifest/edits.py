@@ -1,9 +1,9 @@
 """Edits of ``package.xml``: they are minimal, follow the style of the file and keep comments.
 
 The edits are computed from the spans in a :class:`Manifest` alone, because rules do not have the text of the file.
-``Manifest.other_contents`` lists the comments and texts between elements, so all lines without element, comment or
-text are blank. Every edit applies to the text from which the manifest was read. If the text is not well-formed, the
-edits are based on the part that could be read.
+A line is blank if it has no element, and no comment or text of ``Manifest.other_contents``. Every edit applies to the
+text from which the manifest was read. If the text is not well-formed, the edits are based on the part that could be
+read.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ class DamagedError(ValueError):
 
 
 def read(path: str, wanted: Callable[[str], bool]) -> dict[str, bytes]:
-    """Return the records of a cache file for whose names ``wanted`` returns True, in the order of the file.
+    """Return the records of a cache file by name, in the order of the file: those whose names ``wanted`` accepts.
 
     Raises DamagedError, and OSError for a file that is missing, not a regular file, linked, or writable by another user.
     """

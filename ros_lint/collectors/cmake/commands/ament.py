@@ -48,7 +48,8 @@ _GENERATES: Final = "rosidl_generate_interfaces"
 def run_external_command(run: Run, name: str, args: list[str]) -> int | None:
     """Run a command that neither CMake nor the package defines. Return the ways in which it may end, None for a normal end.
 
-    A macro of a released package runs in its reduced form. The effects of any other command are recorded as unknown.
+    For a macro of a released package, the definition in ``ros_macros.cmake`` runs. The effects of any other command are
+    recorded as unknown.
     """
     macro = released(name)
     if macro is not None:

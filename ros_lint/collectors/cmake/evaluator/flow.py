@@ -72,8 +72,8 @@ def run_body(run: Run, body: Sequence[Node], start: int = 0) -> Exit:
 def run_conditionally(run: Run, piece: Callable[[], Exit], exits: Exit = NEXT) -> tuple[Exit, Changes]:
     """Evaluate ``piece``, code under an undecided condition, and undo its changes. Return its possible Exit and its changes.
 
-    ``exits`` describes the condition of the code: BY_DEFAULT if it runs with default options, IF_TESTING if it runs only if
-    tests are enabled.
+    ``exits`` are flags about the condition: BY_DEFAULT if it holds with default options, IF_TESTING if it holds only if tests
+    are enabled, NEXT for any other condition.
     """
     uncertain, testing = run.uncertain_conditions, run.testing
     run.uncertain_conditions += not exits & BY_DEFAULT
