@@ -38,6 +38,9 @@ def named(files: Mapping[str, str], roots: tuple[str, ...] = ("",)) -> list[tupl
         (CI, "with:\n  required-ros-distributions: ${{ matrix.ros_distro }}\n# ROS_DISTRO: foxy\n", {}),
         (CI, "on: {push: {branches: [humble]}}\n", {}),
         (".gitlab-ci.yml", "image: ros:foxy\n", {"foxy": 1}),
+        # Lists of repositories name the branches of other repositories.
+        ("deps.rosinstall", "- git: {local-name: a, uri: https://robots.example/a.git, version: humble}\n", {}),
+        ("a.repos", "repositories:\n  a: {type: git, url: https://robots.example/a.git, version: humble}\n", {}),
         (".devcontainer/devcontainer.json", '{\n  "image": "ros:jazzy",\n  // "x": "ros:foxy"\n}\n', {"jazzy": 2}),
         (".devcontainer/Dockerfile", "FROM althack/ros2:humble-dev\nENV ROS_DISTRO humble\n", {"humble": 2}),
         ("README.md", "# Robot\n![ROS 2](https://img.shields.io/badge/ROS2-Humble-blue)\n", {"humble": 2}),
