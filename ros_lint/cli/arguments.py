@@ -27,6 +27,18 @@ SHELLS = ("bash", "zsh", "fish")
 """The shells for which ``ros-lint completion`` prints a script."""
 _SIMILAR = 0.75
 """Minimum similarity (0 to 1) of an option to suggest it for an unknown one: ``--exit-zero`` does not suggest ``--distro``."""
+_FOREIGN = {
+    "--base-paths": "give the paths as arguments",
+    "--disable": "use --ignore",
+    "--enable": "use --extend-select",
+    "--exit-zero": "use --fail-on never",
+    "--no-color": "use --color never",
+    "--output-format": "use --format",
+    "--output-file": "use --output",
+    "--skip-checks": "use --ignore",
+    "--verbose": "use --pedantic for all findings, or --format json for all details",
+}
+"""Options of other linters and of colcon, each with what to use instead."""
 _EPILOG = """\
 commands (see also ros-lint COMMAND --help):
 {}
@@ -39,7 +51,9 @@ class _ArgumentParser(argparse.ArgumentParser):
     def reject(self, unknown: Sequence[str]) -> NoReturn:
         """Print an error message about unknown arguments and exit."""
         options = [text for action in self._actions for text in action.option_strings]
-        hint = did_you_mean(similar_names(unknown[0].partition("=")[0], options, least=_SIMILAR))
+        name = unknown[0].partition("=")[0]
+        foreign = _FOREIGN.get(name) if self.prog == "ros-lint" else None
+        hint = f"; {foreign}" if foreign else did_you_mean(similar_names(name, options, least=_SIMILAR))
         self.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
 
     def error(self, message: str) -> NoReturn:

@@ -116,6 +116,10 @@ def _is_command(need: dependencies.Need) -> bool:
     return all(use.span in calls for use in need.uses)
 
 
+_MOST_BETWEEN = 2
+"""Maximum number of packages between the declared and the used one that the message names. ``ros-lint why`` lists all."""
+
+
 def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.Need, path: Sequence[str]) -> bool:
     """Return whether packages rarely declare a needed package (``need``), because a declared package exists to provide it.
 
@@ -162,7 +166,8 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
     if _comes_by_design(package, workspace, need, path):
         confidence = Confidence.LOW
     first, *between = [f"'{package_between}'" for package_between in path[:-1]]
-    origin = f"{first} through {' and '.join(between)}" if between else first
+    through = " and ".join(between) if len(between) <= _MOST_BETWEEN else f"{len(between)} other packages"
+    origin = f"{first} through {through}" if between else first
     proposal = dependencies.remedy(package, workspace, name, need.role)
     return Finding(
         f"'{name}' is used here, but package.xml does not declare it; it comes with {origin}{proposal.ending}",
