@@ -452,6 +452,11 @@ def open_arguments(text: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(_OPEN_ARGUMENT.findall(text)))
 
 
+def open_pieces(text: str) -> list[str]:
+    """Return a text split at its open arguments: literals, and at odd places the names of the arguments."""
+    return _OPEN_ARGUMENT.split(text)
+
+
 def with_open_arguments(text: str, values: Mapping[str, str], evaluate: Callable[[str], str]) -> str:
     """Return a text in which launch arguments that were left open get ``values``, by name.
 

@@ -24,6 +24,7 @@ from ros_lint.collectors.symbolic_text import (
     is_settled,
     open_argument,
     open_arguments,
+    open_pieces,
     readable,
     with_open_arguments,
 )
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
 _MOST_RESULTS = 256
 """Maximum number of results of one expression in the page."""
 _QUOTED = re.compile(r"'([^'\n]{0,200})'")
-_ARGUMENT = re.compile("\ue018([^\ue018\ue019]*)\ue019")
 
 
 class Control(NamedTuple):
@@ -123,8 +123,7 @@ def _control_html(control: Control) -> str:
 
 def _pieces(text: str) -> list[str]:
     """Return the literals of a text, and at odd places the names of open arguments."""
-    pieces = _ARGUMENT.split(text)
-    return [piece if number % 2 else readable(piece) for number, piece in enumerate(pieces)]
+    return [piece if number % 2 else readable(piece) for number, piece in enumerate(open_pieces(text))]
 
 
 def _option(text: str, *, selected: bool) -> str:
@@ -231,7 +230,7 @@ class _Page:
         ``arguments``, by the values as JSON.
         """
         if not has_open_expression(text):
-            known = all(map(is_settled, _ARGUMENT.split(text)))
+            known = all(map(is_settled, open_pieces(text)))
             return {"pieces": _pieces(text)} if known else None
         names = open_arguments(text)
         values = [self._values(name, text, condition) for name in names]
