@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
@@ -212,28 +211,22 @@ def _edited_files(issue: Issue) -> Iterable[str]:
     return dict.fromkeys(edit.span.path for edit in fix.edits) if fix else ()
 
 
-def _written_names(issue: Issue) -> list[str]:
-    """Return the names that the fix of an issue inserts, each as a whole text or as the content of an XML element."""
-    fix = issue.finding.fix
-    texts = [edit.text for edit in fix.edits] if fix else []
-    return [name for text in texts for name in re.findall(r"(?:>|\A)([\w.+-]+)(?=<|\Z)", text)]
-
-
 def _new_findings(before: Trial, after: Trial, group: Sequence[Issue]) -> list[Issue]:
     """Return the findings that the fixes of ``group`` cause in any distribution.
 
-    Only findings with high confidence, of rules that are on by default, count. A finding about the subject of a fix, or
-    about a name that a fix inserts, also counts if its confidence becomes high. Otherwise findings may change: an
-    undeclared dependency, for example, can become a transitive dependency.
+    Only findings with high confidence, of rules that are on by default, count. A finding also counts if its confidence becomes
+    high, because it was not shown before: any finding in a package with a safe fix, or one about the subject of a fix.
     """
     earlier, count = before.identity_counts(), after.identity_counts()
     earlier_serious, serious = before.serious_counts(), after.serious_counts()
-    fixed = {(issue.package, name) for issue in group for name in (issue.finding.subject, *_written_names(issue))}
+    packages = {issue.package for issue in group if issue.finding.fix and issue.finding.fix.safe}
+    fixed = {(issue.package, issue.finding.subject) for issue in group}
 
     def is_new(issue: Issue, name: DistroIdentity) -> bool:
         if count[name] > earlier[name]:
             return True
-        return (issue.package, issue.finding.subject) in fixed and serious[name] > earlier_serious[name]
+        is_near = issue.package in packages or (issue.package, issue.finding.subject) in fixed
+        return is_near and serious[name] > earlier_serious[name]
 
     return [issue for issue in after.serious if any(is_new(issue, name) for name in after.identities(issue))]
 
