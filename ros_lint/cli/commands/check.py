@@ -35,7 +35,7 @@ def run(options: Mapping[str, Any]) -> int:
     unsaved: Mapping[str, bytes] = {}
     try:
         with progress:
-            request = parse_request(options, os.environ)
+            request = parse_request(_with_place(options), os.environ)
             _warn(request.settings.warnings)
             if request.settings["show-settings"]:
                 print(request.settings.show(), end="")
@@ -49,7 +49,7 @@ def run(options: Mapping[str, Any]) -> int:
             if request.settings["stdin-filename"]:
                 from ros_lint.cli.commands import stdin_file  # noqa: PLC0415
 
-                request, report, unsaved = stdin_file.check(options, progress.update)
+                report, unsaved = stdin_file.check(request, progress.update)
             elif request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
 
@@ -75,6 +75,12 @@ def run(options: Mapping[str, Any]) -> int:
         print(no_packages(request), file=sys.stderr)
     written = outputs.print_report(report, request, unsaved)
     return max(code, written, exit_code(report, request.settings["fail-on"]))
+
+
+def _with_place(options: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the options with the place of the file of ``--stdin-filename`` as the only path, if there is such a file."""
+    name = str(options.get("stdin-filename") or "")
+    return {**options, "paths": [name if os.path.exists(name) else os.path.dirname(name) or "."]} if name else options
 
 
 def _warn(warnings: Iterable[str]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.symbolic_text import UNKNOWN, readable
@@ -39,6 +39,30 @@ def full_names(started: Started) -> tuple[str, ...]:
     if not started.name:
         return tuple(dict.fromkeys([f"{space}/..." for space in spaces if space]))
     return tuple(dict.fromkeys([f"{space}/{name or '...'}" for space in spaces for name in started.name]))
+
+
+Detail = tuple[str | tuple[str, ...], ...]
+"""A line about an action: words, and possible values as tuples."""
+
+
+def details(started: Started) -> Iterator[Detail]:
+    """Yield a line for each setting of an action: its container, parameters, remappings, environment and arguments."""
+    if started.container:
+        yield "in container ", tuple([name if name.startswith("/") else f"/{name}" for name in started.container])
+    if started.words:
+        spaced = [piece for texts in started.words for piece in (" ", texts)]
+        yield "arguments", *spaced
+    for name, texts in started.parameters:
+        if name != UNKNOWN:
+            yield ("parameter ", (name,), " = ", texts) if name else ("parameters ", texts)
+    if any(name == UNKNOWN for name, _ in started.parameters):
+        yield ("unknown parameters",)
+    for before, after in started.remappings:
+        yield ("unknown remappings",) if before == after == (UNKNOWN,) else ("remap ", before, " to ", after)
+    for name, texts in started.environment:
+        yield "environment ", (name,), " = ", texts
+    for name, texts in started.arguments:
+        yield "argument " if started.kind == "include" else "", (name,), " = ", texts
 
 
 def condition_text(condition: LaunchCondition) -> str:

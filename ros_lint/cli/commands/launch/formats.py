@@ -22,9 +22,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.cli.commands.launch.expanded import condition_text, full_names, shown, why_not_followed
+from ros_lint.cli.commands.launch.expanded import condition_text, details, full_names, shown, why_not_followed
 from ros_lint.cli.commands.output import document, label, where
-from ros_lint.collectors.symbolic_text import UNKNOWN, readable
+from ros_lint.collectors.symbolic_text import readable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -106,9 +106,7 @@ def show_args(expanded: ExpandedFile) -> str:
 
 def names_of(started: Started) -> frozenset[str]:
     """Return the names by which ``--node`` selects a node or component: its name, full name, executable and class."""
-    spaces = [f"/{space.strip('/')}".rstrip("/") for space in started.namespace or ("",)]
-    full = [f"{space}/{name}" for space in spaces for name in started.name if name]
-    return frozenset([*started.name, *full, *started.target])
+    return frozenset([*started.name, *full_names(started), *started.target])
 
 
 def _argument(argument: Argument) -> str:
@@ -119,22 +117,8 @@ def _details(started: Started, expanded: ExpandedFile) -> Iterator[str]:
     yield from (f"error: {message}" for message in expanded.marks.get(started.span, ()))
     if not started.certain:
         yield " and ".join(_when(started)) or "conditional: the condition is unknown"
-    if started.container:
-        yield f"in container {shown(name if name.startswith('/') else f'/{name}' for name in started.container)}"
-    if started.words:
-        yield f"arguments {' '.join(map(_value, started.words))}"
-    for name, texts in started.parameters:
-        if name == UNKNOWN:
-            continue
-        yield f"parameter {readable(name)} = {_value(texts)}" if name else f"parameters {shown(texts)}"
-    if any(name == UNKNOWN for name, _ in started.parameters):
-        yield "unknown parameters"
-    for before, after in started.remappings:
-        yield "unknown remappings" if before == after == (UNKNOWN,) else f"remap {shown(before)} to {shown(after)}"
-    for name, texts in started.environment:
-        yield f"environment {readable(name)} = {_value(texts)}"
-    for name, texts in started.arguments:
-        yield f"{'argument ' if started.kind == 'include' else ''}{readable(name)} = {_value(texts)}"
+    for detail in details(started):
+        yield "".join(piece if isinstance(piece, str) else _value(piece) for piece in detail)
     if started.kind == "include" and not started.file:
         yield f"not followed: {why_not_followed(started, expanded.lookup)}"
     yield from (f"? {reason}" for reason in started.unknown)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.html_page import fill, resource
 from ros_lint.base.json_text import for_html
-from ros_lint.cli.commands.launch.expanded import condition_text, full_names, why_not_followed
+from ros_lint.cli.commands.launch.expanded import condition_text, details, full_names, why_not_followed
 from ros_lint.collectors.launch.expressions import evaluate
 from ros_lint.collectors.symbolic_text import (
     UNKNOWN,
@@ -186,18 +186,8 @@ class _Page:
             yield f'<span class="condition" data-condition="{number}">{text} <span class="truth"></span></span>'
         if not action.certain and not action.when:
             yield "conditional: the condition is unknown"
-        if action.container:
-            yield f"in container {self._texts(action.container)}"
-        if action.words:
-            yield f"arguments {' '.join(map(self._texts, action.words))}"
-        for name, texts in action.parameters:
-            yield f"parameter {self._texts((name,))} = {self._texts(texts)}" if name else f"parameters {self._texts(texts)}"
-        for before, after in action.remappings:
-            yield f"remap {self._texts(before)} to {self._texts(after)}"
-        for name, texts in action.environment:
-            yield f"environment {self._texts((name,))} = {self._texts(texts)}"
-        for name, texts in action.arguments:
-            yield f"argument {self._texts((name,))} = {self._texts(texts)}"
+        for detail in details(action):
+            yield "".join(html.escape(piece) if isinstance(piece, str) else self._texts(piece) or "''" for piece in detail)
         if action.kind == "include" and not action.file:
             yield f"not followed: {html.escape(why_not_followed(action, self._expanded.lookup))}"
         yield from (f"unknown: {html.escape(reason)}" for reason in action.unknown)
