@@ -13,6 +13,7 @@ import pytest
 
 from ros_lint.cli import git_commits
 from ros_lint.cli.main import main
+from ros_lint.workspace import collect as collecting
 from tests.packages import manifest_text
 
 CMAKE = "cmake_minimum_required(VERSION 3.8)\nproject({name})\nfind_package(ament_cmake REQUIRED)\n{more}ament_package()\n"
@@ -132,3 +133,21 @@ def test_no_program_of_the_configuration_runs(repository: Path, tmp_path: Path) 
     assert not mark.exists()
     assert (out / "arm" / "CMakeLists.txt").read_bytes() == (repository / "arm" / "CMakeLists.txt").read_bytes()
     assert os.readlink(out / "link") == "arm"
+
+
+def test_files_that_the_commit_shares_are_found_in_the_cache(
+    repository: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    write(repository, "hand", "add_executable(node new.cpp)\n")
+    command = [str(repository), "--format", "json", "--distro", "jazzy"]
+    main([*command])
+    (file,) = (tmp_path / "cache" / "ros-lint").glob("*.cache")
+    before = file.read_bytes()
+    analysed: list[str] = []
+    collect = collecting.collect
+    monkeypatch.setattr(collecting, "collect", lambda text, kind: analysed.append(text.path) or collect(text, kind))
+    capsys.readouterr()
+    assert main([*command, "--since", "HEAD"]) == 1
+    assert {finding["subject"] for finding in json.loads(capsys.readouterr().out)["findings"]} == {"new.cpp"}
+    assert (analysed, file.read_bytes()) == (["hand/CMakeLists.txt"], before)

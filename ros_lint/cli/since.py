@@ -11,7 +11,6 @@ from ros_lint.cli import git_commits
 from ros_lint.cli.checking import check_workspaces
 from ros_lint.cli.session import UsageError, open_session
 from ros_lint.engine import baseline
-from ros_lint.workspace.cache.file import NO_CACHE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -43,9 +42,11 @@ def only_new(report: Report, request: Request, environment: Mapping[str, str], p
 
 
 def _in_folder(request: Request, folder: str) -> Request:
-    """Return the request for checking a commit whose files are in ``folder``, without a cache of results.
+    """Return the request for checking a commit whose files are in ``folder``.
 
-    Requested folders that the commit does not have are left out.
+    Files that the commit and the workspace share are not analysed again: cached facts are found by the contents of files.
+    Nothing is added to the cache, because it would replace the facts of the workspace. Requested folders that
+    the commit does not have are left out.
     """
 
     def existing(paths: tuple[str, ...]) -> tuple[str, ...]:
@@ -57,5 +58,5 @@ def _in_folder(request: Request, folder: str) -> Request:
         context=existing(request.context),
         inside=(folder,),
         tracked=None,
-        cache=NO_CACHE,
+        cache=request.cache.for_reading(),
     )

@@ -26,13 +26,14 @@ SOURCES = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file
 
 
 class CacheFile:
-    """The cached results of a workspace. With an empty ``folder``, nothing is cached.
+    """The cached results of a workspace. With an empty ``folder``, nothing is cached. Nothing is written unless ``writable``.
 
     ``notes`` has the reasons why cached results were not used or not written, to be shown to the user.
     """
 
-    def __init__(self, folder: str, workspace: str) -> None:
+    def __init__(self, folder: str, workspace: str, *, writable: bool = True) -> None:
         self._folder = folder
+        self._writable = writable
         self._workspace = os.path.realpath(workspace) if folder else ""
         # Each installation has its own file, so that two versions do not replace each other's results.
         key = "\0".join((self._workspace, __version__, sys.version, SOURCES))
@@ -42,6 +43,10 @@ class CacheFile:
     def __bool__(self) -> bool:
         """Return whether results are kept between runs: False if ``folder`` is empty."""
         return bool(self._path)
+
+    def for_reading(self) -> CacheFile:
+        """Return the same cache file, to which nothing is written."""
+        return CacheFile(self._folder, self._workspace, writable=False)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -66,7 +71,7 @@ class CacheFile:
 
         ``obsolete`` is called with the names of the records in the file, and returns the names of the records to remove.
         """
-        if not self._path:
+        if not self._path or not self._writable:
             return
         try:
             os.makedirs(self._folder, mode=0o700, exist_ok=True)
