@@ -38,7 +38,7 @@ Reported with medium confidence:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
     Confidence,
@@ -57,12 +57,15 @@ from ros_lint.api import (
 
 _TAGS = ("depend", "build_depend")
 
+_RUN_TAGS = ("build_export_depend", "exec_depend")
+"""Tags that are removed together with those to build."""
+
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     unused = dependencies.unused_find_packages(package, workspace)
     if not unused:
         return
-    declared = {mention.name: _build_tags(package, mention.name) for mention in unused}
+    declared = {mention.name: _always_declared(package, mention.name, _TAGS) for mention in unused}
     needed = _needed_for_others(package, workspace, declared)
     included = {use.package for use in package.uses if use.via == "include"}
     reached = workspace.world.closure(sorted(included))
@@ -71,7 +74,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         name, tags = mention.name, declared[mention.name]
         others = _also_named(package, mention)
         places = [_call(package, mention)] + ([f"the other uses of '{name}' in the build script"] if others else [])
-        places += [f"<{tag.depend.tag}>{name}</{tag.depend.tag}>" for tag in tags if name not in needed]
+        if tags and name not in needed:
+            removed = (*tags, *_always_declared(package, name, _RUN_TAGS))
+            places += [f"<{tag.depend.tag}>{name}</{tag.depend.tag}>" for tag in removed]
         remedy = f"remove {_listed(places)}"
         if places[0].startswith("'") and len(places) > 1:
             remedy = f"remove {places[0]}, and remove {_listed(places[1:])}"
@@ -113,8 +118,9 @@ def _is_of_interfaces(name: str, workspace: Workspace) -> bool:
     return any(member.built.products.interfaces for member in local) if local else bool(released and released.interfaces)
 
 
-def _build_tags(package: Package, name: str) -> tuple[Declared, ...]:
-    return tuple([declared for declared in package.tags(name) if declared.depend.tag in _TAGS and declared.always])
+def _always_declared(package: Package, name: str, tags: Container[str]) -> tuple[Declared, ...]:
+    """Return the declarations of a dependency by some tags, without those that have a condition."""
+    return tuple([declared for declared in package.tags(name) if declared.depend.tag in tags and declared.always])
 
 
 def _needed_for_others(package: Package, workspace: Workspace, unused: Mapping[str, Sequence[Declared]]) -> frozenset[str]:
