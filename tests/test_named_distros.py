@@ -45,6 +45,10 @@ def named(files: Mapping[str, str], roots: tuple[str, ...] = ("",)) -> list[tupl
         (".devcontainer/Dockerfile", "FROM althack/ros2:humble-dev\nENV ROS_DISTRO humble\n", {"humble": 2}),
         ("README.md", "# Robot\n![ROS 2](https://img.shields.io/badge/ROS2-Humble-blue)\n", {"humble": 2}),
         ("README.md", "Works on humble.\n", {}),
+        ("README.md", "# Robot\nNeeds ROS 2 Jazzy.\nInstall ROS2 (jazzy) first.\n", {"jazzy": 2}),
+        ("README.md", "ロボットのROS2-Humble, for ROS 2 **Humble**\n", {"humble": 1}),
+        ("README.md", "For ROS 2 Humble. A port to ROS 2 Jazzy is planned.\n", {}),
+        ("README.md", "The ROS 2 package of rolling robots, with ROS humble beginnings and microROS Jazzy\n", {"humble": 1}),
         ("notes.yaml", "ros_distro: humble\n", {}),
     ],
 )

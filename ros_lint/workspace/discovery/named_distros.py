@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Final
 
 from ros_lint.base.paths import join
@@ -104,9 +104,24 @@ def _in_branch(tree: Tree, path: str, known: Mapping[str, bool]) -> Iterator[Nam
             yield NamedDistro(branch[1], path, 1, known[branch[1]])
 
 
-def _in_readme(path: str, lines: Sequence[str], known: Mapping[str, bool]) -> Iterator[NamedDistro]:
-    """Yield the distributions that are named in README lines with a badge."""
-    for number, line in enumerate(lines, 1):
-        if _BADGE.search(line):
-            names = [word.lower() for word in _WORD.findall(line)]
-            yield from (NamedDistro(name, path, number, known[name]) for name in names if name in known)
+def _in_readme(path: str, lines: Sequence[str], known: Mapping[str, bool]) -> list[NamedDistro]:
+    """Return the distributions that a README names in lines with a badge.
+
+    Without such lines, the result is the distribution that the text names after "ROS 2". A text that names several
+    distributions may compare them, so the result is then [].
+    """
+    in_badges = list(_names_in(path, ((n, _WORD.findall(line)) for n, line in enumerate(lines, 1) if _BADGE.search(line)), known))
+    if in_badges:
+        return in_badges
+    in_text = list(_names_in(path, ((number, _IN_TEXT.findall(line)) for number, line in enumerate(lines, 1)), known))
+    return in_text[:1] if len({named.distro for named in in_text}) == 1 else []
+
+
+def _names_in(path: str, words: Iterable[tuple[int, Sequence[str]]], known: Mapping[str, bool]) -> Iterator[NamedDistro]:
+    """Yield the words that are names of distributions. ``words`` has the words of each line with the number of the line."""
+    for number, in_line in words:
+        yield from (NamedDistro(word.lower(), path, number, known[word.lower()]) for word in in_line if word.lower() in known)
+
+
+_IN_TEXT = re.compile(r"(?i)(?<![a-z])ROS[ -]?2?[ -]{1,2}\(?\*{0,2}([a-z]+)")
+"""Matches the word after "ROS 2" in a text: ``ROS 2 Jazzy``, ``ROS2-Humble``, ``ROS (Iron)``."""
