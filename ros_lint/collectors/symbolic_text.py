@@ -18,6 +18,7 @@ import re
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from functools import lru_cache
 from itertools import islice, product
+from posixpath import normpath
 from typing import NamedTuple
 
 from ros_lint.facts.launch import LaunchCondition
@@ -68,6 +69,8 @@ _SHOWN = {"\ue010$": "$(env ", "\ue010": "$(var ", "\ue012": "$(eval ", "\ue014"
 _LOGIC = re.compile(r"_(and|or|not|if|equals|not_equals)\((.*)\)", re.DOTALL)
 _ROOTED = re.compile(rf"/{_ROOT}([^/:;,'\"]*)(?:/share/([^\s'\":;,{_ROOT}]*))?")
 _RENAMES = ("__node:=", "__name:=", "__ns:=")
+# The same path characters as in _PREFIX.
+_IN_OWN_FOLDER = re.compile(rf"{OWN_FOLDER}((?:/[^/\s'\":;,\ue012-\ue015]*)+)")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
 
@@ -250,11 +253,11 @@ def _readable_root(match: re.Match[str]) -> str:
 
 
 def may_contain_place(text: str, configurations: Container[str] = ()) -> bool:
-    """Return whether the value of a text may contain an install place of a package, or a command of xacro.
+    """Return whether the value of a text may contain an install place of a package, a file beside the launch file, or xacro.
 
-    ``configurations`` are the launch configurations whose values may contain an install place or a command of xacro.
+    ``configurations`` are the launch configurations whose values may contain such a place or a command of xacro.
     """
-    if _ROOT in text or "xacro" in text:
+    if _ROOT in text or OWN_FOLDER in text or "xacro" in text:
         return True
     return any(mark == _CONFIGURATION[0] or name in configurations for name, mark in _NAME_OF_CONFIGURATION.findall(text))
 
@@ -296,6 +299,14 @@ def installed_place(text: str) -> InstallPlace | None:
     """Return the only install place in a text, None if there is none or there are several."""
     places = list(installed(text))
     return places[0] if len(places) == 1 else None
+
+
+def files_beside(text: str) -> Iterator[str]:
+    """Yield the known paths in a text that begin with the folder of the launch file, relative to that folder, normalized."""
+    for match in _IN_OWN_FOLDER.finditer(text) if OWN_FOLDER in text else ():
+        path = normpath(match[1].strip("/")) if match[1].strip("/") else "."
+        if path != "." and is_plain(path):
+            yield path
 
 
 class Conditional(str):

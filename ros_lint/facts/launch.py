@@ -138,6 +138,14 @@ For "program", the package is a rosdep key.
 """
 
 
+BESIDE: Final = ""
+"""The package of a reference to a file that is named from the folder of the launch file (``$(dirname)``, ``__file__``).
+
+The name is then the path relative to that folder. Only collectors return such references:
+``workspace.launch_places`` replaces them by references to the package of the launch file.
+"""
+
+
 class LaunchReference(NamedTuple):
     """A place in a launch file that refers to a package, and mostly to an executable, class or file of the package."""
 

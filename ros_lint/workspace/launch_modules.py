@@ -17,6 +17,7 @@ from ros_lint.collectors.launch.python.released_helpers import HELPERS
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, installed_place
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, walk_actions
+from ros_lint.workspace.launch_places import with_places
 from ros_lint.workspace.side_by_side import own_first
 
 if TYPE_CHECKING:
@@ -37,11 +38,16 @@ class LaunchPackage(NamedTuple):
 
 
 def resolve_modules(tree: Tree, packages: Sequence[LaunchPackage]) -> list[tuple[LaunchFile, ...]]:
-    """Return the launch files of each package, interpreted again if the workspace has their missing inputs."""
-    if not any(_needs_inputs(file) for package in packages for file in package.launch):
-        return [package.launch for package in packages]
-    inputs = _InputFinder(tree, packages)
-    return [tuple([inputs.with_inputs(file, package) for file in package.launch]) for package in packages]
+    """Return the launch files of each package, interpreted again if the workspace has their missing inputs.
+
+    Their references to files beside them name the package (:mod:`ros_lint.workspace.launch_places`).
+    """
+    if any(_needs_inputs(file) for package in packages for file in package.launch):
+        inputs = _InputFinder(tree, packages)
+        packages = [
+            package._replace(launch=tuple([inputs.with_inputs(file, package) for file in package.launch])) for package in packages
+        ]
+    return [with_places(package.launch, package.name, package.path, package.files, package.script) for package in packages]
 
 
 def for_distro(distro: str, file: LaunchFile) -> LaunchFile:

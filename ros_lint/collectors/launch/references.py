@@ -19,6 +19,7 @@ from ros_lint.collectors.symbolic_text import (
     InstallPlace,
     configurations,
     configurations_with_places,
+    files_beside,
     fill,
     installed,
     is_plain,
@@ -27,7 +28,7 @@ from ros_lint.collectors.symbolic_text import (
     runs_xacro,
     share,
 )
-from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchReference, LaunchValue, ReferenceKind
+from ros_lint.facts.launch import BESIDE, LaunchAction, LaunchCondition, LaunchReference, LaunchValue, ReferenceKind
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 _COMMANDS: Mapping[tuple[str, ...], str] = {
@@ -163,6 +164,8 @@ class References:
                     self._add("package", place.package, "", package, package, conditional, default, is_computed)
             if not places and not is_settled(text):
                 self.hide("the included launch file is computed", target.span)
+            for path in files_beside(text) if not places else ():
+                self._add("include", BESIDE, path, target, target, conditional, default)
 
     def _note_process(self, action: LaunchAction, conditional: bool) -> None:
         """Add references to the packages that a command line uses.
@@ -210,7 +213,11 @@ class References:
         for text in texts:
             if text.isascii() and not runs_xacro(text):
                 continue
-            read_places = set(installed(reads(text))) if reads is not None else ()
+            read_part = reads(text) if reads is not None else ""
+            read_places = set(installed(read_part))
+            for beside in files_beside(text) if not default or "//" not in text else ():
+                is_read = beside in files_beside(read_part)
+                self._add("file", BESIDE, beside, value, value, conditional or len(texts) > 1, default, is_read=is_read)
             for place in installed(text):
                 if not place.known:
                     self.hide("the package that is looked up is computed", value.span)
@@ -379,7 +386,7 @@ class References:
 
     def mark_guarded(self, paths: Iterable[str]) -> None:
         """Mark the references to files among ``paths`` as checked, because the launch file tests whether these files exist."""
-        checked = {(place.package, place.share) for path in paths for text in self._fill(path) for place in installed(text)}
+        checked = set(self._named_files(paths))
         if checked:
             self.references = {
                 reference._replace(existence_checked=True)
@@ -395,18 +402,22 @@ class References:
         """
         replaced: dict[tuple[str, str], tuple[tuple[str, str], ...]] = {}
         for path, tested in fallbacks:
-            for file in self._installed_files([path]):
-                replaced[file] = self._installed_files(tested)
+            for file in self._named_files([path]):
+                replaced[file] = self._named_files(tested)
         if replaced:
             self.references = {
                 reference._replace(fallback_for=replaced.get((reference.package, reference.name), ())): None
                 for reference in self.references
             }
 
-    def _installed_files(self, paths: Iterable[str]) -> tuple[tuple[str, str], ...]:
-        """Return the installed files at paths, each as its package and its path below the package's share directory."""
-        places = {place for path in paths for text in self._fill(path) for place in installed(text)}
-        return tuple(sorted((place.package, place.share) for place in places if place.share))
+    def _named_files(self, paths: Iterable[str]) -> tuple[tuple[str, str], ...]:
+        """Return the files at paths, each as its package and its path below the package's share directory.
+
+        For a file beside the launch file, they are BESIDE and its path relative to the launch file.
+        """
+        texts = {text for path in paths for text in self._fill(path)}
+        files = {(place.package, place.share) for text in texts for place in installed(text) if place.share}
+        return tuple(sorted(files | {(BESIDE, path) for text in texts for path in files_beside(text)}))
 
     def all(self) -> tuple[LaunchReference, ...]:
         """Return the references, sorted by span.

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
 from ros_lint.base.budget import Budget, BudgetExceeded
+from ros_lint.base.paths import parent
 from ros_lint.collectors.python.interpreter.branches import LEAVE
 from ros_lint.collectors.python.interpreter.builtins import BUILTINS
 from ros_lint.collectors.python.interpreter.expressions import EVALUATE
@@ -49,7 +50,7 @@ from ros_lint.collectors.python.interpreter.values import (
 )
 from ros_lint.collectors.python.syntax import placed
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY
-from ros_lint.collectors.symbolic_text import is_settled, joined
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_settled, joined
 from ros_lint.facts.launch import LaunchCondition
 
 STEPS = 150_000
@@ -122,6 +123,8 @@ class Machine(Interpreter):
         module = None if known else self._modules(name, importer.text)
         if module is not None:
             source = self._sources[key] = Source(module.text)
+            if parent(module.text.path) != parent(importer.text.path) or "__file__" in importer.names:
+                source.names["__file__"] = UNKNOWN  # only paths relative to the folder of the program are known
             self.run(module.tree, source)
             return source
         if not known:

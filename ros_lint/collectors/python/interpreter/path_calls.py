@@ -6,7 +6,7 @@ import posixpath
 from collections.abc import Callable, Mapping
 
 from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule
-from ros_lint.collectors.python.interpreter.path_functions import split, split_suffix
+from ros_lint.collectors.python.interpreter.path_functions import normalized, split, split_suffix
 from ros_lint.collectors.python.interpreter.values import FilePath, Value, guarded_text, union
 from ros_lint.collectors.symbolic_text import joined
 
@@ -41,7 +41,7 @@ PATH_FUNCTIONS: Mapping[str, Rule] = {
     "os.path.join": _join,
     "os.path.basename": on_path(lambda path: split(path)[1]),
     "os.path.dirname": on_path(lambda path: split(path)[0]),
-    "os.path.normpath": on_path(posixpath.normpath),
+    "os.path.normpath": on_path(normalized),
     "os.path.split": _split(split),
     "os.path.splitext": _split(split_suffix),
     "os.fspath": on_path(str),

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import posixpath
+import re
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python.interpreter.operations import waits
 from ros_lint.collectors.python.interpreter.values import FilePath, Method, ProgramRaised, Unknown, Value, plain, written
-from ros_lint.collectors.symbolic_text import BRACKETS, UNKNOWN, expression, is_plain, may_contain_place, quoted
+from ros_lint.collectors.symbolic_text import BRACKETS, OWN_FOLDER, UNKNOWN, expression, is_plain, may_contain_place, quoted
 
 if TYPE_CHECKING:
     import ast
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Frame
 
 _MOST_PARENTS = 12
+_IN_OWN_FOLDER = re.compile(rf"{OWN_FOLDER}(?:/\.\.)*")
+"""Pattern of the folder of the launch file, and of the folders above it."""
 
 
 def split(path: str) -> tuple[str, str]:
@@ -26,9 +29,13 @@ def split(path: str) -> tuple[str, str]:
 
     - The default of the part contains a slash.
     - Nothing precedes the part.
+
+    The folder of the launch file is in ``..``, seen from that folder.
     """
     if is_plain(path):
         return posixpath.split(path)
+    if _IN_OWN_FOLDER.fullmatch(path):
+        return f"{path}/..", ""
     slash = _last_outside(path, "/")
     name = path[slash + 1 :]
     if is_plain(name) or (slash >= 0 and "/" not in name):
@@ -36,6 +43,17 @@ def split(path: str) -> tuple[str, str]:
     if not waits(name):
         return UNKNOWN, UNKNOWN if "/" in name else name
     return UNKNOWN, UNKNOWN if may_contain_place(name) else expression(f"{quoted(name)}.split('/')[-1]")
+
+
+def normalized(path: str) -> str:
+    """Return a path without ``.`` and needless ``..``, as ``os.path.normpath()`` does.
+
+    ``..`` remains after the folder of the launch file, because the folder above it is not known.
+    """
+    if not path.startswith(OWN_FOLDER):
+        return posixpath.normpath(path)
+    inner = posixpath.normpath(f".{path[len(OWN_FOLDER) :]}")
+    return OWN_FOLDER if inner == "." else f"{OWN_FOLDER}/{inner}"
 
 
 def split_suffix(path: str) -> tuple[str, str]:
@@ -81,7 +99,7 @@ def of_path(owner: FilePath, name: str) -> Value:
             return getattr(PurePosixPath(owner.text), name)
         case "parents":
             folders: list[FilePath] = []
-            while folder and (not folders or folder != folders[-1].text):
+            while folder and len(folders) < _MOST_PARENTS and (not folders or folder != folders[-1].text):
                 folders.append(FilePath(folder))
                 folder = split(folder)[0]
             # The folders above an unknown folder are unknown.
