@@ -75,6 +75,42 @@ def tokens(text: str) -> list[tuple[int, int]]:
         raise _as_yaml_error(error, len(text)) from None
 
 
+def events(text: str) -> list[yaml.Event]:
+    """Return the events of a text, in which aliases are replaced by the events of the value that they repeat.
+
+    Each replaced alias follows as an AliasEvent after the repeated events. Unlike :func:`compose`, this reads several
+    documents. Raises YamlError.
+    """
+    import yaml  # noqa: PLC0415
+
+    result: list[yaml.Event] = []
+    anchored: dict[str, tuple[int, int]] = {}
+    open_anchors: list[tuple[str | None, int]] = []
+    text = _bounded(text)
+    try:
+        for event in yaml.parse(text, Loader=_loader(fast=True)):
+            start = len(result)
+            if isinstance(event, yaml.AliasEvent):
+                if event.anchor not in anchored:
+                    raise YamlError(f"found undefined alias '{event.anchor}'", _start(event))
+                first, end = anchored[event.anchor]
+                if start + end - first > _MOST_REPEATED:
+                    raise YamlBoundError(f"aliases repeat more than {_MOST_REPEATED:,} values", _start(event))
+                result += result[first:end]
+            result.append(event)
+            if isinstance(event, yaml.CollectionStartEvent):
+                open_anchors.append((event.anchor, start))
+            elif isinstance(event, yaml.ScalarEvent) and event.anchor:
+                anchored[event.anchor] = start, len(result)
+            elif isinstance(event, yaml.CollectionEndEvent):
+                anchor, first = open_anchors.pop()
+                if anchor:
+                    anchored[anchor] = first, len(result)
+    except (yaml.YAMLError, UnicodeError) as error:
+        raise _as_yaml_error(error, len(text)) from None
+    return result
+
+
 @cache
 def _loader(*, fast: bool) -> Any:
     """Return a subclass of PyYAML's safe loader class that limits the size of integers.

@@ -32,6 +32,30 @@ class LaunchValue(NamedTuple):
     """Conditions of a parameter or parameter file. It is passed to the node only if all of them hold."""
     guards: tuple[tuple[LaunchCondition, ...], ...] = ()
     """For each of ``texts`` the conditions under which it is the value; () if no text has conditions."""
+    changes: tuple[FileChange, ...] = ()
+    """Changes of a parameter file, in order, before the node reads it."""
+
+
+class FileChange(NamedTuple):
+    """A change of the contents of a parameter file before a node reads them, made by launch."""
+
+    kind: Literal["rewrite", "replace", "substitute"]
+    """Kind of the change.
+
+    * ``rewrite``: values of parameters and keys are replaced (RewrittenYaml of nav2_common).
+    * ``replace``: texts are replaced (ReplaceString of nav2_common).
+    * ``substitute``: substitutions such as ``$(var name)`` are performed (``allow_substs``).
+    """
+    values: tuple[tuple[str, LaunchValue], ...] = ()
+    """New values by the name of the parameter, or new texts by the old text."""
+    keys: tuple[tuple[str, LaunchValue], ...] = ()
+    """New keys by the old key."""
+    root: LaunchValue | None = None
+    """Key that is put above the contents; None for no key."""
+    complete: bool = True
+    """False if the file is changed in further ways that are unknown."""
+    conditions: tuple[LaunchCondition, ...] = ()
+    """Conditions of the change. It is made only if all of them hold."""
 
 
 class LaunchCondition(NamedTuple):

@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 from ros_lint.base.text import Span
 from ros_lint.facts.interfaces import InterfaceFile
 from ros_lint.facts.manifest import Role
-from ros_lint.facts.visibility import Opaque
+from ros_lint.facts.visibility import Opaque, Problem
 
 Via = Literal["package", "cmake", "macro", "target", "include", "import", "interface", "symbol", "launch", "key"]
 """Kind of a name that may belong to another package. Each kind has its own way to find the package of a name.
@@ -126,6 +126,25 @@ class ImportedType(NamedTuple):
     """Place of the module name as written. The Use of the package that provides the module has the same span."""
 
 
+ParameterType = Literal["bool", "integer", "double", "string", "bool_array", "integer_array", "double_array", "string_array", ""]
+"""Type of a parameter in the words of rclcpp; "" if it is unknown, as for a list without elements."""
+
+
+class FileParameter(NamedTuple):
+    """A parameter of a node in a parameter file."""
+
+    node: str
+    """Name of the node as rcl stores it: the keys above ``ros__parameters``, joined by slashes; "" outside of such a section."""
+    name: str
+    """Name of the parameter, with dots between nested keys."""
+    text: str
+    """The value as written, without quotes; a list as ``[1, 2]``."""
+    type: ParameterType
+    """Type that rcl_yaml_param_parser derives from the notation of the value."""
+    span: Span
+    """Place of the last key of the name."""
+
+
 class ParameterFile(NamedTuple):
     """A YAML file with parameters of nodes, as read by rcl_yaml_param_parser."""
 
@@ -140,6 +159,10 @@ class ParameterFile(NamedTuple):
     """Place of the first key."""
     configurations_read: tuple[str, ...] = ()
     """Names of the launch configurations that launch substitutes if the node's ParameterFile has ``allow_substs``."""
+    parameters: tuple[FileParameter, ...] = ()
+    """The parameters of all nodes, in order. A parameter can occur several times."""
+    refusals: tuple[Problem, ...] = ()
+    """Reasons why rcl_yaml_param_parser refuses the file, so that a node that reads the file stops."""
 
 
 class Registration(NamedTuple):

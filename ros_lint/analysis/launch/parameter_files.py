@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from posixpath import normpath
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver, installed_below_share, substitute
+from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.collectors.symbolic_text import installed_place, share
 from ros_lint.facts.launch import walk_actions
 
 if TYPE_CHECKING:
@@ -29,17 +32,39 @@ class NodeParameterFile(NamedTuple):
     """The possible namespaces that the action itself sets; ("",) if it sets none."""
 
 
+class ParameterContents:
+    """Finds the parameter files of the workspace by the paths in launch files."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._by_source: dict[str, ParameterFile] = {}
+        self._by_place: dict[tuple[str, str], ParameterFile | None] = {}
+        for package in workspace.packages:
+            self._by_source.update({file.path: file for file in package.parameter_files})
+            for file, path in installed_below_share(package, package.parameter_files):
+                key = (package.name, path)
+                # If two files are installed to one path, it is unknown which of them is used.
+                self._by_place[key] = None if self._by_place.get(key, file) is not file else file
+
+    def __call__(self, path: str) -> ParameterFile | None:
+        """Return the parameter file at a path in an install space or relative to the base folder; None if it is not known."""
+        place = installed_place(path)
+        if place is None:
+            return self._by_source.get(normpath(path))
+        return self._by_place.get((place.package, place.share or ""))
+
+
+@cached_by_workspace
+def parameter_contents(workspace: Workspace) -> ParameterContents:
+    """Return the :class:`ParameterContents` of a workspace."""
+    return ParameterContents(workspace)
+
+
 class ParameterFiles:
     """Finds the parameter files of the workspace that launch files pass to nodes."""
 
     def __init__(self, workspace: Workspace) -> None:
         self._links = include_resolver(workspace)
-        self._by_path: dict[tuple[str, str], ParameterFile | None] = {}
-        for package in workspace.packages:
-            for file, path in installed_below_share(package, package.parameter_files):
-                key = (package.name, path)
-                # If two files are installed to one path, it is unknown which of them is used.
-                self._by_path[key] = None if key in self._by_path else file
+        self._contents = parameter_contents(workspace)
 
     def given(self, file: LaunchFile) -> Iterator[NodeParameterFile]:
         """Yield the parameter files of the workspace that a launch file passes to nodes.
@@ -55,7 +80,7 @@ class ParameterFiles:
                     defaults = assigned_configurations(file)
                 texts = substitute(value, defaults)
                 place = self._links.installed_at(texts[0], file) if len(texts) == 1 else None
-                parameters = self._by_path.get(place) if place is not None else None
+                parameters = self._contents(f"{share(place[0])}/{place[1]}") if place is not None else None
                 if parameters is not None:
                     names, namespaces = substitute(action.name, defaults), substitute(action.namespace, defaults)
                     yield NodeParameterFile(action, value, parameters, names, namespaces or ("",))

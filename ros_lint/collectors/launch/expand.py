@@ -10,13 +10,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.budget import Budget
+from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, final_parameters, of_command_line
 from ros_lint.collectors.launch.scope import Filling, LaunchScope, Texts
-from ros_lint.collectors.symbolic_text import UNKNOWN, is_settled, joined
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_node_renaming, is_settled, joined
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from ros_lint.base.text import Span
+    from ros_lint.collectors.launch.final_parameters import Contents, FinalParameters
     from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile
 
 _MAX_DEPTH = 20
@@ -65,6 +67,8 @@ class Started(NamedTuple):
     """The command-line arguments of a node, each with its possible values."""
     via: Span | None = None
     """The place of the include in the launched file that leads to this action, None if the launched file contains it."""
+    final: FinalParameters | None = None
+    """The parameters with which the node or component starts; None if they are not requested."""
 
 
 class Argument(NamedTuple):
@@ -147,15 +151,16 @@ def expand(
     distro: str = "",
     *,
     brief: bool = False,
+    contents: Contents | None = None,
 ) -> Expansion:
     """Return the actions that a launch file starts if it is launched with the arguments ``passed``.
 
     ``files`` returns an included file by its path, None if there is no such file. A path in an install space begins with a
     placeholder for the install prefix of its package. ``brief`` omits parameters (except parameter files), remappings and the
     arguments of included files, because they take most of the time. ``distro`` is the value of ROS_DISTRO, "" if it is
-    unknown.
+    unknown. ``contents`` returns a parameter file by its path; without it, the final parameters of nodes are not computed.
     """
-    run = _Run(files, brief, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
+    run = _Run(files, brief, contents, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in passed.items()})
     return Expansion(
         tuple(run.started),
@@ -180,9 +185,16 @@ class _Delayed(NamedTuple):
 
 
 class _Run:
-    def __init__(self, files: Callable[[str], LaunchFile | None], brief: bool, environment: Mapping[str, Texts]) -> None:
+    def __init__(
+        self,
+        files: Callable[[str], LaunchFile | None],
+        brief: bool,
+        contents: Contents | None,
+        environment: Mapping[str, Texts],
+    ) -> None:
         self._files = files
         self._brief = brief
+        self._contents = contents
         self._filling = Filling(environment)
         self._texts = self._filling.texts
         self._open: list[tuple[str, dict[str, Texts]]] = []
@@ -270,8 +282,10 @@ class _Run:
                 return outer.after(self._include(action, scope))
             case "node" | "component" | "process":
                 started = self._start(action, scope)
-                container = _joined_namespaces(started.namespace, started.name) if started.name else (UNKNOWN,)
-                self._actions(action.children, scope._replace(container=container))
+                if action.children:
+                    container = _joined_namespaces(started.namespace, started.name) if started.name else (UNKNOWN,)
+                    process = tuple([given for given in self._given(action, scope) if given.is_rule or not given.name])
+                    self._actions(action.children, scope._replace(container=container, process=process))
             case _:
                 self._actions(action.children, scope)
         return outer
@@ -334,13 +348,17 @@ class _Run:
         texts = self._texts(action.value, scope)
         if action.kind == "namespace":
             return scope._replace(namespace=_joined_namespaces(scope.namespace, texts if scope.certain else (*texts, "")))
-        if not scope.certain:
+        if not scope.certain and action.kind != "parameter":
             texts = (*texts, UNKNOWN)
         names = self._texts(action.target, scope) or ("",)
         if action.kind == "remap":
             return scope._replace(remappings=(*scope.remappings, (names, texts)))
         if action.kind == "parameter":
-            return scope._replace(parameters=(*scope.parameters, *((name, texts) for name in names)))
+            given = [
+                GivenParameter(name, texts, action.value.span if action.value else None, scope.certain, is_rule=True)
+                for name in names
+            ]
+            return scope._replace(parameters=(*scope.parameters, *given))
         environment = dict(scope.environment)
         if action.name is None:
             pairs = tuple((name, texts) for name in names)
@@ -356,7 +374,7 @@ class _Run:
         name = self._texts(action.name, scope)
         inner = scope._replace(values=dict(scope.values)) if action.has_scope else scope
         if action.has_scope and name:
-            inner = inner._replace(container=name)
+            inner = inner._replace(container=name, process=())
         for configuration, value in action.arguments:
             self._set(inner, configuration, self._texts(value, scope), certain=True)
         after = self._actions(action.children, inner)
@@ -381,7 +399,9 @@ class _Run:
         self._via = self._via if self._depth else action.span
         self._open.append((path, dict(scope.values)))
         # An included file shares the configurations and the namespace, but not the folder.
-        after = self._actions(file.actions, scope._replace(folder=(path.rpartition("/")[0],), include=action.span, container=()))
+        after = self._actions(
+            file.actions, scope._replace(folder=(path.rpartition("/")[0],), include=action.span, container=(), process=())
+        )
         self._open.pop()
         self._via = self._via if self._depth else None
         return after
@@ -400,20 +420,14 @@ class _Run:
         is_node = action.kind in ("node", "component")
         words = tuple([self._texts(value, scope) for name, value in action.arguments if not name])
         named = [(name, self._texts(value, scope)) for name, value in action.arguments if name]
+        given = self._given(action, scope) if is_node else ()
         started = Started(
             action.kind,
             self._texts(action.package, scope),
             joined(words, " ".join) if words and is_process else self._texts(action.target, scope),
             self._texts(action.name, scope),
             _joined_namespaces(scope.namespace, self._texts(action.namespace, scope) or ("",)),
-            (
-                *(scope.parameters if is_node else ()),
-                *(
-                    (name, self._texts(value, scope))
-                    for name, value in action.parameters
-                    if self._filling.may_hold(value.conditions, scope)
-                ),
-            ),
+            tuple([(one.name, (*one.texts, UNKNOWN) if one.is_rule and not one.certain else one.texts) for one in given]),
             (
                 *(scope.remappings if is_node else ()),
                 *((self._texts(a, scope), self._texts(b, scope)) for a, b in action.remappings),
@@ -433,8 +447,29 @@ class _Run:
             words=() if is_process else words,
             via=self._via,
         )
+        if is_node and self._contents is not None:
+            started = started._replace(final=self._final(started, given, scope, self._contents))
         self.started.append(started)
         return started
+
+    def _given(self, action: LaunchAction, scope: LaunchScope) -> tuple[GivenParameter, ...]:
+        """Return the parameters and parameter files that a node or component gets, in order."""
+        own = [self._filling.given(name, value, scope) for name, value in action.parameters]
+        return (*scope.parameters, *[given for given in own if given is not None])
+
+    def _final(
+        self, started: Started, given: Sequence[GivenParameter], scope: LaunchScope, contents: Contents
+    ) -> FinalParameters:
+        renamed = any(is_node_renaming(text) for texts in started.words for text in texts)
+        node = NodeNames(() if renamed else started.name, started.namespace, started.target)
+        return final_parameters(
+            node,
+            (*of_command_line(started.words), *given),
+            contents,
+            lambda text: self._filling.substituted(text, scope),
+            scope.process,
+            component=started.kind == "component",
+        )
 
 
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:

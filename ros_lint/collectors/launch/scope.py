@@ -6,6 +6,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.launch.expressions import evaluate, means_true
+from ros_lint.collectors.launch.final_parameters import FilledChange, GivenParameter
 from ros_lint.collectors.symbolic_text import (
     OWN_FOLDER,
     UNKNOWN,
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from ros_lint.base.text import Span
-    from ros_lint.facts.launch import LaunchCondition, LaunchValue
+    from ros_lint.facts.launch import FileChange, LaunchCondition, LaunchValue
 
 Texts = tuple[str, ...]
 """The possible values of a text."""
@@ -38,11 +39,13 @@ class LaunchScope(NamedTuple):
     folder: Texts
     namespace: Texts = ("",)
     certain: bool = True
-    parameters: tuple[tuple[str, Texts], ...] = ()
+    parameters: tuple[GivenParameter, ...] = ()
     remappings: tuple[tuple[Texts, Texts], ...] = ()
     environment: tuple[tuple[str, Texts], ...] = ()
     """Environment variables with their possible values, by name; an unset variable has no values."""
     container: Texts = ()
+    process: tuple[GivenParameter, ...] = ()
+    """The parameters of the container around a component, which are those of its process."""
     when: tuple[LaunchCondition, ...] = ()
     later: bool = False
     include: Span | None = None
@@ -124,6 +127,25 @@ class Filling:
                 yield f"the launch configuration '{name}' is not set"
         if UNKNOWN in text:
             yield "it is computed in a way that ros-lint cannot follow"
+
+    def given(self, name: str, value: LaunchValue, scope: LaunchScope) -> GivenParameter | None:
+        """Return a parameter or parameter file (``name`` "") of a node in a scope, None if its conditions do not hold."""
+        if not self.may_hold(value.conditions, scope):
+            return None
+        certain = not value.conditions or self.truth(value.conditions, scope)[0] is True
+        changes = [self._change(change, scope) for change in value.changes if self.may_hold(change.conditions, scope)]
+        return GivenParameter(name, self.texts(value, scope), value.span, certain, tuple(changes))
+
+    def _change(self, change: FileChange, scope: LaunchScope) -> FilledChange:
+        values, keys = (tuple([(old, self.texts(new, scope)) for old, new in pairs]) for pairs in (change.values, change.keys))
+        certain = not change.conditions or self.truth(change.conditions, scope)[0] is True
+        return FilledChange(change.kind, values, keys, self.texts(change.root, scope), change.complete, certain)
+
+    def substituted(self, text: str, scope: LaunchScope) -> Texts:
+        """Return the possible results of the substitutions in a text, in the syntax of XML launch files."""
+        from ros_lint.collectors.launch.markup.substitutions import symbolic  # noqa: PLC0415  (few parameter files have substitutions)
+
+        return self._filled(symbolic(text), scope)
 
     def may_hold(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> bool:
         """Return whether all conditions may hold in a scope: none of them is false.

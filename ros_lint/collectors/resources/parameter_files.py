@@ -40,16 +40,22 @@ _ANY = "/**"
 
 
 def collect(source: Text) -> ParameterFile | None:
-    """Return the node names in a parameter file, with their places; None if the file has no keys."""
-    parameters = _read_parameters(source)
-    if parameters is None or "$(var" not in source.text:
-        return parameters
+    """Return the node names and parameters in a parameter file, with their places; None if the file has no keys."""
+    file = _read_nodes(source)
+    if file is None or not file.nodes:
+        return file
+    from ros_lint.collectors.resources.parameter_values import read_values  # noqa: PLC0415  (imports the YAML library)
+
+    values = read_values(source)
+    file = file._replace(parameters=values.parameters, refusals=values.refusals)
+    if "$(var" not in source.text:
+        return file
     from ros_lint.collectors.launch.markup.collect import configurations_read  # noqa: PLC0415  (few parameter files have substitutions)
 
-    return parameters._replace(configurations_read=configurations_read(source.text))
+    return file._replace(configurations_read=configurations_read(source.text))
 
 
-def _read_parameters(source: Text) -> ParameterFile | None:
+def _read_nodes(source: Text) -> ParameterFile | None:
     text = source.text
     first = _FIRST.search(text)
     marks = text.count(_MARK)

@@ -23,6 +23,8 @@ class ExpandedFile(NamedTuple):
     lookup: LaunchFileLookup
     marks: Marks
     target: TargetDistro
+    lists_parameters: bool = False
+    """True to list the final parameters of each node in the tree format, not only their number."""
 
 
 def shown(texts: Iterable[str]) -> str:
@@ -63,6 +65,22 @@ def details(started: Started) -> Iterator[Detail]:
         yield "environment ", (name,), " = ", texts
     for name, texts in started.arguments:
         yield "argument " if started.kind == "include" else "", (name,), " = ", texts
+
+
+def has_more_parameters(started: Started) -> bool:
+    """Return whether the lines of :func:`details` do not contain all parameters with which a node starts."""
+    return started.final is not None and any(not name for name, _ in started.parameters)
+
+
+def final_parameters(started: Started) -> Iterator[Detail]:
+    """Yield a line for each parameter with which a node starts, with its place, and for each reason why there may be more."""
+    if started.final is None:
+        return
+    for parameter in started.final.parameters:
+        place = f"  ({parameter.span.path}:{parameter.span.line})" if parameter.span is not None else ""
+        yield (parameter.name,), " = ", parameter.texts, place if parameter.certain else f"{place} perhaps"
+    for reason in started.final.unknown:
+        yield (f"perhaps more: {reason}",)
 
 
 def condition_text(condition: LaunchCondition) -> str:

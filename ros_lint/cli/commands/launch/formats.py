@@ -11,6 +11,9 @@ The JSON has ``schema_version`` 1, ``file``, and
   ``certain``, ``when`` (the conditions), ``unknown`` (reasons why something is unknown), ``problems`` (messages about a
   missing package, executable or class), ``path``, ``line`` and ``column``; for an include also ``follows`` (the file that
   was read, or null) and ``starts``;
+  For a node and a component, ``final`` has the parameters with which it starts, after all files and overrides: each with
+  ``name``, ``values``, ``certain`` (false if it is perhaps not set or overridden), ``path``, ``line`` and ``column`` of its
+  place, which are null for a place that is not known; ``final_unknown`` has the reasons why there may be further parameters;
 - ``unknown``: places in these files that could not be analysed, each with ``reason``, ``path``, ``line`` and ``column``;
 - ``complete``: false if the evaluation stopped early, because includes are cyclic or a limit was exceeded.
 
@@ -22,8 +25,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.cli.commands.launch.expanded import condition_text, details, full_names, shown, why_not_followed
+from ros_lint.cli.commands.launch.expanded import (
+    Detail,
+    condition_text,
+    details,
+    final_parameters,
+    full_names,
+    has_more_parameters,
+    shown,
+    why_not_followed,
+)
 from ros_lint.cli.commands.output import document, label, where
+from ros_lint.collectors.launch.final_parameters import FinalParameters
 from ros_lint.collectors.symbolic_text import readable
 
 if TYPE_CHECKING:
@@ -118,10 +131,24 @@ def _details(started: Started, expanded: ExpandedFile) -> Iterator[str]:
     if not started.certain:
         yield " and ".join(_when(started)) or "conditional: the condition is unknown"
     for detail in details(started):
-        yield "".join(piece if isinstance(piece, str) else _value(piece) for piece in detail)
+        yield _line(detail)
+    if has_more_parameters(started):
+        lines = [_line(detail) for detail in final_parameters(started)]
+        yield f"{_count(started)}{':' if expanded.lists_parameters and lines else ''}"
+        yield from (f"  {line}" for line in (lines if expanded.lists_parameters else ()))
     if started.kind == "include" and not started.file:
         yield f"not followed: {why_not_followed(started, expanded.lookup)}"
     yield from (f"? {reason}" for reason in started.unknown)
+
+
+def _line(detail: Detail) -> str:
+    return "".join(piece if isinstance(piece, str) else _value(piece) for piece in detail)
+
+
+def _count(started: Started) -> str:
+    final = started.final or FinalParameters()
+    number = len(final.parameters)
+    return f"{number} final parameter{'' if number == 1 else 's'}{', perhaps more' if final.unknown else ''}"
 
 
 def _summary(expansion: Expansion) -> str:
@@ -203,7 +230,22 @@ def _item(started: Started, marks: Marks) -> dict[str, Any]:
         "when": _when(started),
         "unknown": list(started.unknown),
         "problems": list(marks.get(started.span, ())),
+        **(_final(started.final) if started.final is not None else {}),
         **where(started.span),
+    }
+
+
+def _final(final: FinalParameters) -> dict[str, Any]:
+    return {
+        "final": [
+            {
+                **_named([(parameter.name, parameter.texts)])[0],
+                "certain": parameter.certain,
+                **(where(parameter.span) if parameter.span is not None else {"path": None, "line": None, "column": None}),
+            }
+            for parameter in final.parameters
+        ],
+        "final_unknown": list(final.unknown),
     }
 
 

@@ -120,7 +120,9 @@ def answer(
         file, place = lookup.installed_file(request.package, request.file)
     else:
         file, place = lookup.source_file(path), path
-    expansion = expand(file._replace(path=place), request.arguments, lookup.included, workspace.target.distro)
+    expansion = expand(
+        file._replace(path=place), request.arguments, lookup.included, workspace.target.distro, contents=lookup.parameters
+    )
     warnings = list(_argument_warnings(file, lookup, expansion, request.arguments))
     marks = marks_of(workspace, (file, *lookup.followed))
     problems = list(dict.fromkeys(_problems(file, lookup, expansion, marks)))
@@ -135,13 +137,20 @@ def _output(content: ExpandedFile, place: str, arguments: Mapping[str, str], opt
         return formats.show_args(content)
     if options.form != "html":
         started = _shown(content.expansion.started, options)
-        return formats.FORMATS[options.form](content._replace(expansion=content.expansion._replace(started=started)))
+        selected = content._replace(expansion=content.expansion._replace(started=started), lists_parameters=bool(options.node))
+        return formats.FORMATS[options.form](selected)
     from ros_lint.cli.commands.launch import page  # noqa: PLC0415
 
     changeable = page.controls(content.expansion)
     while True:
         passed = {**arguments, **page.open_values(changeable)}
-        expansion = expand(content.file._replace(path=place), passed, content.lookup.included, content.target.distro)
+        expansion = expand(
+            content.file._replace(path=place),
+            passed,
+            content.lookup.included,
+            content.target.distro,
+            contents=content.lookup.parameters,
+        )
         if not (fixed := page.names_in_paths(expansion)):
             break
         changeable = tuple([control for control in changeable if control.name not in fixed])

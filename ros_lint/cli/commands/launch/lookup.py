@@ -7,12 +7,14 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.launch.includes import AcceptedArguments, IncludeResolver
+from ros_lint.analysis.launch.parameter_files import parameter_contents
 from ros_lint.base.paths import resolve, strip_folder
 from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.base.text import read
 from ros_lint.cli.session import UsageError
 from ros_lint.collectors.file_types import kind_of
-from ros_lint.collectors.symbolic_text import configurations, installed, share
+from ros_lint.collectors.resources.parameter_files import collect as collect_parameters
+from ros_lint.collectors.symbolic_text import configurations, installed, installed_place, share
 from ros_lint.facts.launch import values, walk_actions
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.collect import collect
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 
     from ros_lint.base.tree import Tree
     from ros_lint.facts.launch import LaunchFile
+    from ros_lint.facts.sources import ParameterFile
     from ros_lint.workspace.model import Package, Workspace
 
 
@@ -46,6 +49,7 @@ class LaunchFileLookup:
         self._sources = {file.path: file for package in workspace.packages for file in package.launch}
         self._includes = IncludeResolver(workspace.packages)
         self._results: dict[str, LaunchFile | Absent] = {}
+        self._parameters: dict[str, ParameterFile | None] = {}
 
     @property
     def followed(self) -> tuple[LaunchFile, ...]:
@@ -197,6 +201,27 @@ class LaunchFileLookup:
         except OSError as error:
             return Absent(f"it cannot be read: {error.strerror or error}", certain=False)
         return self._collected(path, data)
+
+    # --- parameter files ------------------------------------------------------------------------------------------
+
+    def parameters(self, path: str) -> ParameterFile | None:
+        """Return the parameter file at a path in a launch file; None if it is not in the workspace or an underlay."""
+        if path not in self._parameters:
+            self._parameters[path] = parameter_contents(self._workspace)(path) or self._read_parameters(path)
+        return self._parameters[path]
+
+    def _read_parameters(self, path: str) -> ParameterFile | None:
+        place = installed_place(path)
+        if place is not None:
+            installed_package = self._workspace.world.installed(place.package)
+            if place.package in self._workspace.by_name or installed_package is None:
+                return None
+            data = installed_package.prefix.read(place.path)
+            return collect_parameters(read(f"{installed_package.prefix.root}/{place.path}", data)) if data is not None else None
+        try:
+            return collect_parameters(read(path, self._tree.read(path))) if not path.startswith("/") else None
+        except OSError:
+            return None
 
     def _collected(self, path: str, data: bytes) -> LaunchFile | Absent:
         kind = kind_of(path)

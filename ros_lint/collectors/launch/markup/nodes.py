@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from ros_lint.collectors.launch.markup.attributes import Reader, TagReader
 from ros_lint.collectors.launch.markup.entity import Entity, Rejected, Type
 from ros_lint.collectors.launch.markup.tags import SINCE
-from ros_lint.facts.launch import LaunchAction, LaunchValue
+from ros_lint.facts.launch import FileChange, LaunchAction, LaunchValue
 
 
 def _process(reader: Reader, entity: Entity, kind: str) -> LaunchAction:
@@ -164,7 +164,8 @@ def _parameters(reader: Reader, entity: Entity) -> tuple[tuple[str, LaunchValue]
             if isinstance(substituted, str):
                 raise Rejected("wrong-type", "'allow_substs' of <param> is neither true nor false", param.place("allow_substs"))
             param.finish()
-            parameters.append(("", reader.text(param, "from")))
+            changes = (FileChange("substitute"),) if substituted else ()
+            parameters.append(("", reader.text(param, "from")._replace(changes=changes)))
         elif name is None:
             raise Rejected("parameter", "<param> requires 'name' or 'from'", param.span)
         elif substituted is not None:

@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable, Mapping
 
 from ros_lint.collectors import symbolic_text
-from ros_lint.collectors.launch.markup.substitution_syntax import Literal, Piece, Substitution
+from ros_lint.collectors.launch.markup.substitution_syntax import Literal, Piece, Substitution, SubstitutionError, parse
 from ros_lint.collectors.launch.markup.tags import SUBSTITUTIONS
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, joined, quoted
 
@@ -57,6 +57,17 @@ def simple_text(value: str) -> str | None:
     output.append(parts[-1])
     text = "".join(output)
     return text if len(text) <= symbolic_text.LONGEST or len(output) == 1 else UNKNOWN
+
+
+def symbolic(text: str) -> Texts:
+    """Return the possible texts of a text with substitutions; UNKNOWN if the substitutions are not valid."""
+    simple = simple_text(text)
+    if simple is not None:
+        return (simple,)
+    try:
+        return texts(parse(text))
+    except SubstitutionError:
+        return (UNKNOWN,)
 
 
 def package_of(pieces: Pieces) -> Pieces:

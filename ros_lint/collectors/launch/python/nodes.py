@@ -8,6 +8,7 @@ from typing import Literal
 
 from ros_lint.base.suggestions import ask_if_meant, similar_names
 from ros_lint.collectors.launch.python.events import later
+from ros_lint.collectors.launch.python.file_changes import file_changes
 from ros_lint.collectors.launch.python.substitutions import is_text, texts
 from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of, span_of
 from ros_lint.collectors.python.interpreter.methods import items
@@ -241,7 +242,8 @@ def _parameter(walker: Walker, value: Value, node: ast.expr, launch_object: Laun
             is_file = isinstance(item, (list, tuple)) or _names_file(item)
             name = "" if is_file else UNKNOWN
             separate = walker.each_text(item, place, launch_object.source)
-            result += [(name, text._replace(conditions=(*conditions, *text.conditions))) for text in separate]
+            changes = file_changes(walker, item, place, launch_object.source) if is_file else ()
+            result += [(name, text._replace(conditions=(*conditions, *text.conditions), changes=changes)) for text in separate]
     return result
 
 

@@ -16,7 +16,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.html_page import fill, resource
 from ros_lint.base.json_text import for_html
-from ros_lint.cli.commands.launch.expanded import condition_text, details, full_names, why_not_followed
+from ros_lint.cli.commands.launch.expanded import (
+    Detail,
+    condition_text,
+    details,
+    final_parameters,
+    full_names,
+    has_more_parameters,
+    why_not_followed,
+)
 from ros_lint.collectors.launch.expressions import evaluate
 from ros_lint.collectors.symbolic_text import (
     UNKNOWN,
@@ -187,10 +195,17 @@ class _Page:
         if not action.certain and not action.when:
             yield "conditional: the condition is unknown"
         for detail in details(action):
-            yield "".join(html.escape(piece) if isinstance(piece, str) else self._texts(piece) or "''" for piece in detail)
+            yield self._line(detail)
+        if has_more_parameters(action):
+            lines = "".join(f"<li>{self._line(detail)}</li>" for detail in final_parameters(action))
+            number = len(action.final.parameters) if action.final is not None else 0
+            yield f'<details class="final"><summary>final parameters: {number}</summary><ul>{lines}</ul></details>'
         if action.kind == "include" and not action.file:
             yield f"not followed: {html.escape(why_not_followed(action, self._expanded.lookup))}"
         yield from (f"unknown: {html.escape(reason)}" for reason in action.unknown)
+
+    def _line(self, detail: Detail) -> str:
+        return "".join(html.escape(piece) if isinstance(piece, str) else self._texts(piece) or "''" for piece in detail)
 
     def _texts(self, texts: Iterable[str]) -> str:
         """Return alternatives as HTML. Each open argument is an element whose text the script replaces."""
