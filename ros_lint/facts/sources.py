@@ -134,7 +134,7 @@ class FileParameter(NamedTuple):
     """A parameter of a node in a parameter file."""
 
     node: str
-    """Name of the node as rcl stores it: the keys above ``ros__parameters``, joined by slashes; "" outside of such a section."""
+    """Name of the node as rcl stores it: the keys above ``ros__parameters``, joined by slashes."""
     name: str
     """Name of the parameter, with dots between nested keys."""
     text: str

@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.budget import Budget
-from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, final_parameters, of_command_line
-from ros_lint.collectors.launch.scope import Filling, LaunchScope, Texts
+from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, Texts, final_parameters, of_command_line
+from ros_lint.collectors.launch.scope import Filling, LaunchScope
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_node_renaming, is_settled, joined
 
 if TYPE_CHECKING:

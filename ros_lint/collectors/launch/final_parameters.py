@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ros_lint.facts.sources import ParameterFile
 
 Texts = tuple[str, ...]
+"""The possible values of a text."""
 _ANY: Final = "/**"
 _MARK: Final = "ros__parameters"
 _MOST_NAMES: Final = 8

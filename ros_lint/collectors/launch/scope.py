@@ -6,7 +6,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.launch.expressions import evaluate, means_true
-from ros_lint.collectors.launch.final_parameters import FilledChange, GivenParameter
+from ros_lint.collectors.launch.final_parameters import FilledChange, GivenParameter, Texts
 from ros_lint.collectors.symbolic_text import (
     OWN_FOLDER,
     UNKNOWN,
@@ -23,9 +23,6 @@ if TYPE_CHECKING:
 
     from ros_lint.base.text import Span
     from ros_lint.facts.launch import FileChange, LaunchCondition, LaunchValue
-
-Texts = tuple[str, ...]
-"""The possible values of a text."""
 
 
 class LaunchScope(NamedTuple):

@@ -127,7 +127,7 @@ class Reader:
     def _value(self, entity: Entity, name: str, value: str) -> LaunchValue:
         texts = (value,) if "$" not in value and "\\" not in value else self._texts(entity, name, value)
         span, plain = entity.written(name)
-        return _make(LaunchValue, (texts, span, plain and len(texts) == 1 and texts[0] == value, (), ()))
+        return _make(LaunchValue, (texts, span, plain and len(texts) == 1 and texts[0] == value, (), (), ()))
 
     def typed(self, entity: Entity, name: str, kind: Type) -> Any:
         """Return the value of an attribute converted to the type ``kind``, None if the attribute is missing.
