@@ -17,6 +17,7 @@ the configuration that is passed, or a variant of the included file that declare
 
 Not reported:
 
+- Arguments that launch itself reads when the included file starts a process or a node, such as `emulate_tty` and `launch-prefix`.
 - Includes whose file or arguments cannot be determined from the launch files alone, and arguments that are passed under an
   unknown condition, such as what a function finds out about the included file.
 - Arguments passed to a file that includes a launch file from outside the workspace, because that file may use or declare them.

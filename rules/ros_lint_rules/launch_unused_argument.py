@@ -15,6 +15,8 @@ Use the argument, or remove it.
 
 Not reported:
 
+- Arguments that launch itself reads when it starts a process or a node, such as `emulate_tty`, `sigterm_timeout`, `launch-prefix`
+  and `ros_namespace`.
 - Arguments of a file that computes the names of the configurations it reads.
 - Arguments of a Python launch file that imports modules which may read them.
 - Arguments of a launch file whose tests read `test_args` of launch_testing.

@@ -45,11 +45,10 @@ Not reported:
 - Libraries outside of ROS that are found with components, and all such libraries if nothing else is missing, because another
   exported package may find them.
 
-An included package that another exported package depends on is an info, because dependents find it as long as that package
-exports it.
-
 Reported with medium confidence:
 
+- Another exported package depends on the included package. Dependents find it as long as that package exports it, so the
+  severity is info.
 - An exported dependency whose own dependencies are unknown may provide the package.
 - The package exports no include directories, so its headers may be only for itself.
 - An exported target or `ament_export_include_directories()` contains the include directories of the other package literally.
@@ -147,10 +146,10 @@ def _is_seen(package: Package) -> bool:
     return not (script.hides(Facet.EXPORTS) or _EXPORTS_ALL.intersection(script.commands.names))
 
 
-def _exported(script: BuildScript) -> set[str]:
-    """Return the CMake names of the packages that the package with the script exports as dependencies."""
+def _exported(package: Package, script: BuildScript) -> set[str]:
+    """Return the CMake names of the packages that a package exports as dependencies, without the package itself."""
     exported = {mention.name for mention in dependencies.macro_packages(script, "export", "interfaces")}
-    return exported.union(mention.name for mention, _ in script.exports.packages)
+    return exported.union(mention.name for mention, _ in script.exports.packages) - {package.name}
 
 
 def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[Lack]:
@@ -163,7 +162,7 @@ def _linked(package: Package, workspace: Workspace, reported: Container[str]) ->
     if script is None or not _is_seen(package):
         return
     found = dependencies.names_searched(package, script)
-    closure = dependencies.partial_closure(workspace, _exported(script))
+    closure = dependencies.partial_closure(workspace, _exported(package, script))
     places: dict[str, list[Span]] = {}
     for name, span in _linked_publicly(package, workspace):
         if name in found and name not in reported and workspace.world.is_package(name):
@@ -193,7 +192,7 @@ def _linked_of_system(package: Package, workspace: Workspace) -> Iterator[str]:
     calls = [call.texts for call in package.calls("find_package", anywhere=True)]
     found = {texts[0] for texts in calls if texts and {"COMPONENTS", "OPTIONAL_COMPONENTS"}.isdisjoint(texts)}
     linked = dict.fromkeys([name for name, _ in _linked_publicly(package, workspace)])
-    exported = _exported(script)
+    exported = _exported(package, script)
     for name in linked:
         if name in found and name not in exported and not any(map(workspace.world.is_package, (name, name.lower()))):
             yield name
@@ -297,7 +296,7 @@ def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
     if script is None or not _is_seen(package):
         return
     by_cmake = workspace.world.by_cmake
-    exported = _exported(script)
+    exported = _exported(package, script)
     exported_packages = exported.union(*(dependencies.standing_for_first(workspace, by_cmake(name).names) for name in exported))
     finds = sorted(dependencies.names_searched(package, script))
     usable = _compilable_elsewhere(package, workspace, script)
@@ -317,7 +316,7 @@ def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
         confidence, severity = _certainty(package, workspace, name, exported, compiled) if compiled else (Confidence.LOW, None)
         lost = "; " if severity is None else ", so packages that use this package find it only through other exported packages; "
         yield (
-            (cmake_name,) if found and confidence is Confidence.HIGH else (),
+            (cmake_name,) if found and (severity or confidence is Confidence.HIGH) else (),
             Finding(
                 f"'{name}' is included by this installed header, but not exported{lost}{remedy}",
                 first.span,
@@ -346,19 +345,21 @@ def _certainty(
 ) -> tuple[Confidence, Severity | None]:
     """Return the confidence and the severity of the finding for a package that installed headers include.
 
-    The severity is info if a package in ``exported`` depends on ``name``, else None, which means the severity of the rule.
+    The severity is info if a package in ``exported`` depends on ``name``, because dependents then find ``name`` through it.
+    Otherwise it is None, which means the severity of the rule.
     """
     script = package.script
     assert script is not None
     closure = dependencies.partial_closure(workspace, exported)
     provided = all(any(provider in closure for provider in use.providers) for use in uses)
-    if not (provided or closure.complete) and dependencies.may_provide(closure.unknown, name, workspace):
+    if provided:
+        return Confidence.MEDIUM, Severity.INFO
+    if not closure.complete and dependencies.may_provide(closure.unknown, name, workspace):
         return Confidence.MEDIUM, None
-    severity = Severity.INFO if provided else None
     if _internal_sources(package, script).issuperset([build.stem(use.span.path) for use in uses]):
-        return Confidence.MEDIUM, severity
+        return Confidence.MEDIUM, None
     sure = _EXPORTS.intersection(script.commands.names) and not _is_written_out(package, workspace, name)
-    return Confidence.HIGH if sure else Confidence.MEDIUM, severity
+    return Confidence.HIGH if sure else Confidence.MEDIUM, None
 
 
 def _internal_sources(package: Package, script: BuildScript) -> frozenset[str]:

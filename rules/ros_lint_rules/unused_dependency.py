@@ -24,11 +24,13 @@ A `<test_depend>` beside a `<depend>` of the same name is an info, because nothi
 Not reported:
 
 - Dependencies with a type that C++ code uses by its bare name, because a header of a third package may declare it.
+- Dependencies with whose names a type, function or macro in C or C++ code begins: `rmw_request_id_t`, `RCLCPP_ERROR(`.
 - Dependencies with programs or launch files that the documentation of the package starts (`ros2 run`, `ros2 launch`).
 - Dependencies that may be needed although no file names them: linters, run-time and tool dependencies, metapackages, vendor
   packages, packages without code, and packages that provide CMake macros or plugins.
 - Packages through which `ament_auto_find_build_dependencies()` finds a used library that is declared by its rosdep key.
 - Packages that contain no code themselves, and packages whose build scripts cannot be fully evaluated.
+- Packages that compile sources outside of their folder, or that have include directories there.
 - Tags with a condition that is false in some ROS 2 environment.
 
 Reported with medium confidence:

@@ -23,6 +23,7 @@ Not reported:
 - The code includes a header of an unknown package, in a folder whose name begins like that of the package.
 - The script uses variables of the package other than those for linking.
 - The package is found for tests, or it is optional.
+- The script compiles sources outside of the package, or has include directories there.
 - The script cannot be fully evaluated, or code is generated from interfaces that cannot be read or are written in IDL.
 
 Reported with medium confidence:

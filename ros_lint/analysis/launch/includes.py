@@ -181,14 +181,26 @@ def _is_read_completely(file: LaunchFile) -> bool:
 
 
 def configurations_read(file: LaunchFile) -> set[str]:
-    """Return the configurations that a launch file reads, and UNKNOWN if the file may read further configurations."""
+    """Return the configurations that a launch file reads, and UNKNOWN if the file may read further configurations.
+
+    Those that launch itself reads for the actions of the file are included.
+    """
     names = set(file.configurations_read)
-    if file.language == "python":  # in XML and YAML files, ``configurations_read`` is complete
-        for action in walk_actions(file.actions):
+    for action in walk_actions(file.actions):
+        names.update(_READ_BY_LAUNCH.get(action.kind, ()))
+        if file.language == "python":  # in XML and YAML files, ``configurations_read`` is complete
             for text, _ in values_of_action(action):
                 if not text.isascii():
                     names.update(name for name in named_in(text) or () if not name.startswith("$"))
     return names
+
+
+_OF_PROCESSES = ("emulate_tty", "launch-prefix", "launch-prefix-filter", "sigkill_timeout", "sigterm_timeout")
+"""Configurations read by ExecuteLocal (launch/actions/execute_local.py) and Executable (launch/descriptions/executable.py)."""
+_OF_NODES = ("global_params", "ros_namespace", "ros_remaps")
+"""Configurations read by Node (launch_ros/actions/node.py) and LoadComposableNodes (.../load_composable_nodes.py)."""
+_READ_BY_LAUNCH = {"process": _OF_PROCESSES, "node": (*_OF_PROCESSES, *_OF_NODES), "component": _OF_NODES}
+"""The configurations that launch itself reads when it performs an action of a kind."""
 
 
 def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:

@@ -60,7 +60,7 @@ def find_textual_mentions(tree: Tree, package: Package, source: PackageSource, w
         places = {**places, **find_mentions(remaining, _contents(tree, package, package.files), libraries)}
         remaining = [name for name in remaining if name not in places]
     if remaining:
-        places = {**places, **types.used(source, remaining)}
+        places = {**places, **_named_by_prefix(remaining, _c_sources(tree, package)), **types.used(source, remaining)}
         remaining = [name for name in remaining if name not in places]
     return {**places, **_find_commands_in_pages(remaining, tree, package)} if remaining else places
 
@@ -120,31 +120,33 @@ def possibly_used(tree: Tree, package: Package, source: PackageSource, world: Wo
     result = frozenset(find_mentions(unused, _contents(tree, package, other_files), whole_names=True))
     commands = b"\n".join([data for _, data in _contents(tree, package, scripts)])
     result |= {name for name in unused if re.search(_VARIABLE % re.escape(to_bytes(name)), commands)}
-    result |= _named_by_prefix(
-        [name for name in unused if name not in result],
-        _contents(tree, package, [file for file in other_files if file.endswith(_C_SUFFIXES)]),
-    )
+    result |= _named_by_prefix([name for name in unused if name not in result], _c_sources(tree, package)).keys()
     if len(result) < len(unused):
         folders = _unknown_folders(package, source)
         result |= {name for name in unused if any(f"{name}_".startswith(f"{folder}_") for folder in folders)}
     return result.union(types.used(source, [name for name in unused if name not in result]))
 
 
-def _named_by_prefix(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> frozenset[str]:
-    """Return the package names with which identifiers in C code begin: ``rmw`` for ``rmw_request_id_t``.
+def _named_by_prefix(names: Sequence[str], files: Iterable[tuple[str, bytes]]) -> dict[str, Span]:
+    """Return, for each package name with which an identifier in C code begins, such a place: ``rmw`` for ``rmw_request_id_t``.
 
     The identifiers are those of types, functions and macros in ``files``, outside comments.
     """
-    result: set[str] = set()
+    result: dict[str, Span] = {}
     for path, data in files if names else ():
         for name in names:
             word = to_bytes(name)
             if name in result or not (word + b"_" in data or word.upper() + b"_" in data):
                 continue  # a quick check that excludes most files, because the pattern is slow
             pattern = re.compile(_OF_C % {b"name": re.escape(word), b"NAME": re.escape(word.upper())})
-            if pattern.search(data) and pattern.search(_without_comments(path, data)):
-                result.add(name)
-    return frozenset(result)
+            if pattern.search(data) and (match := pattern.search(_without_comments(path, data))):
+                result[name] = span_in(path, data, *match.span())
+    return result
+
+
+def _c_sources(tree: Tree, package: Package) -> Iterator[tuple[str, bytes]]:
+    """Yield path and contents of the C and C++ files of a package."""
+    return _contents(tree, package, [file for file in package.files if file.endswith(_C_SUFFIXES)])
 
 
 _OF_C = rb"\b(?:%(name)s_(?:\w+_t\b|\w*[a-z0-9][ \t]*\()|%(NAME)s_[A-Z0-9_]+[ \t]*\()"

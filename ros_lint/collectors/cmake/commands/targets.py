@@ -82,6 +82,8 @@ def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
     for source in sources:
         plain, certain = strip_mark(source)
         path = run.paths.source(plain)
+        if run.paths.is_outside_source(plain):
+            run.hide(Facet.USES, "a source is outside of the package, where files are not read", run.place_of(source))
         if path in run.paths.files:
             sources_so_far.append(path if certain else source[0] + path)
         elif path is not None and "$<" not in plain:
