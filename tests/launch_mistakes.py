@@ -59,7 +59,7 @@ _WRONG: Mapping[str, tuple[str, ...]] = {
     "text": ("5", "LogInfo(msg='a')"),
     "texts": ("['a', 5]",),
     "float": ("5",),
-    "parameters": ("{'a': 1}", "[5]"),
+    "parameters": ("{'a': 1}", "[5]", "[{'a': []}]"),
     "remappings": ("[('a', 5)]", "[('a', 'b', 'c')]"),
     "entities": ("5",),
 }

@@ -195,7 +195,10 @@ def test_components_are_shown_with_their_containers() -> None:
 
 
 def test_reasons_of_unknown_values_are_shown() -> None:
-    lines = launch('<node pkg="p" exec="$(env WHICH)"/><node pkg="p" exec="$(var nobody)"/>')
+    body = xml('<node pkg="p" exec="$(env WHICH)"/><node pkg="p" exec="$(var nobody)"/>')
+    output, _, code = ask(package("p", {"launch/a.launch.xml": body}), "p", "a.launch.xml")
+    lines = [line.strip() for line in output.splitlines()[1:-2]]
+    assert code == 1
     assert lines == [
         "node p ?",
         "? the environment variable 'WHICH' is not known",
@@ -290,6 +293,22 @@ def test_a_recursive_include_with_an_end_condition_is_expanded() -> None:
     output, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
     assert (err, code) == ("", 0)
     assert [line.split()[-1] for line in output.splitlines() if "node" in line and "include" not in line] == ["x2", "x1", "x0"]
+
+
+def test_a_configuration_without_value_is_reported() -> None:
+    files = package("p", {"launch/a.launch.xml": xml('<node pkg="q" exec="$(var x)"/>')})
+    message = "the launch configuration 'x' is not set here; pass x:=VALUE, or declare it"
+    assert ask(files, "p", "a.launch.xml")[1:] == (f"ros-lint: p/launch/a.launch.xml:2:2: {message}\n", 1)
+    assert ask(files, "p", "a.launch.xml", "x:=y")[1:] == ("", 0)
+
+
+def test_a_substitution_in_an_f_string_does_not_fail_the_launch() -> None:
+    main = (
+        "from launch import LaunchDescription\nfrom launch.substitutions import LaunchConfiguration\n"
+        "from launch_ros.actions import Node\n\ndef generate_launch_description():\n"
+        "    return LaunchDescription([Node(package='q', executable='e', name=f\"{LaunchConfiguration('x')}_n\")])\n"
+    )
+    assert ask(package("p", {"launch/a.launch.py": main}), "p", "a.launch.py")[1:] == ("", 0)
 
 
 def test_a_rejected_file_is_reported() -> None:

@@ -1,8 +1,12 @@
 """Expansion of launch files with arguments, through their includes."""
 
+import re
 from collections.abc import Mapping
 
-from ros_lint.collectors.launch.expand import Expansion, Started, expand
+import pytest
+
+from ros_lint.collectors.launch.expand import expand
+from ros_lint.collectors.launch.expansion import Expansion, Started
 from ros_lint.facts.launch import LaunchFile
 from tests.launch_cases import collect
 
@@ -266,3 +270,48 @@ def test_actions_of_a_timer_in_an_included_file_name_the_include() -> None:
         (1, True, ("a",)),
         (0, False, ("b",)),
     ]
+
+
+@pytest.mark.parametrize(
+    ("path", "value"),
+    [
+        ("'/a', x, 'b'", "/a/b"),
+        ("'/', x, 'b'", "/b"),
+        ("x, 'b'", "b"),
+        ("'a', x", "a/"),
+        ("'a', absolute", "/d"),
+        ("'a', x, absolute, 'b'", "/d/b"),
+        ("'a/', name, 'b'", "a/n/b"),
+        ("['a', x], ['b', name]", "a/bn"),
+        ("name, PathJoinSubstitution([x, 'b'])", "n/b"),
+    ],
+)
+def test_paths_are_joined_with_the_values_of_arguments(path: str, value: str) -> None:
+    names = {"x": "", "absolute": "/d", "name": "n"}
+    declared = "".join(f"DeclareLaunchArgument('{name}', default_value='{text}')," for name, text in names.items())
+    for name in names:
+        path = re.sub(rf"(?<!['\w]){name}\b", f"LaunchConfiguration('{name}')", path)
+    file = python(f"{declared} Node(package='p', executable=PathJoinSubstitution([{path}]))")
+    assert summaries(run(file)) == [f"node p {value}"]
+
+
+def unset(expansion: Expansion) -> list[str]:
+    return [found.name for found in expansion.unset]
+
+
+def test_configurations_without_value_are_found() -> None:
+    assert unset(run(xml('<node pkg="p" exec="$(var x)"/>'))) == ["x"]
+    assert unset(run(xml('<node pkg="p" exec="e" if="$(var x)"/>'))) == ["x"]
+    assert unset(run(xml('<node pkg="p" exec="$(var x)" if="false"/>'))) == []
+    assert unset(run(xml('<node pkg="p" exec="$(var x)" if="$(env Y)"/>'))) == []
+    assert unset(run(xml('<group><let name="x" value="1"/></group><node pkg="p" exec="$(var x)"/>'))) == ["x"]
+    assert unset(run(xml('<node pkg="p" exec="$(var x)"/>'), {"x": "e"})) == []
+    assert unset(run(python("Node(package='p', executable=LaunchConfiguration('x', default='e'))"))) == []
+    assert unset(run(python("TimerAction(period=1.0, actions=[Node(package='p', executable=LaunchConfiguration('x'))])"))) == []
+
+
+def test_an_include_that_cannot_be_read_may_set_any_configuration() -> None:
+    body = '<include file="/x/{}.launch.xml"/><node pkg="p" exec="$(var x)"/>'
+    assert unset(run(xml(body.format("b")))) == []
+    assert unset(run(xml(body.format("b")), b=xml('<let name="y" value="1"/>'))) == ["x"]
+    assert unset(run(xml(body.format("b")), b=xml('<let name="x" value="1"/>'))) == []

@@ -143,3 +143,17 @@ def test_a_default_that_may_be_none_is_unknown() -> None:
     (argument,) = file.actions
     assert argument.value is not None
     assert argument.value.texts == ("b", UNKNOWN)
+
+
+@pytest.mark.parametrize(
+    ("test", "command"),
+    [
+        ("launch_testing.actions.GTest(path='/a/b')", "/a/b"),
+        ("launch_testing.actions.PyTest(path='/a/b.py', timeout=3)", f"{UNKNOWN} -m pytest /a/b.py"),
+        ("launch_testing.util.KeepAliveProc()", f"{UNKNOWN} -c {UNKNOWN}"),
+    ],
+)
+def test_programs_of_tests_are_processes(test: str, command: str) -> None:
+    _, file = collect(f"import launch_testing\nreturn LaunchDescription([{test}])")
+    (started,) = expand(file, {}).started
+    assert (started.kind, started.target) == ("process", (command,))

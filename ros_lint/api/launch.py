@@ -28,12 +28,13 @@ from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_
 from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes, scope_leaks
 from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
 from ros_lint.collectors.symbolic_text import are_consistent, configurations, is_node_renaming, is_plain
-from ros_lint.facts.launch import LAUNCH_RUNTIME, values_of_action, walk_actions
+from ros_lint.facts.launch import ACCEPTED_PROBLEMS, LAUNCH_RUNTIME, values_of_action, walk_actions
 
 if TYPE_CHECKING:
-    from ros_lint.collectors.launch.expand import Started as Started  # noqa: PLC0414
+    from ros_lint.collectors.launch.expansion import Started as Started  # noqa: PLC0414
 
 __all__ = [
+    "ACCEPTED_PROBLEMS",
     "LAUNCH_FILE_NAMES",
     "LAUNCH_RUNTIME",
     "ArgumentUse",

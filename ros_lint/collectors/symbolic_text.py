@@ -8,6 +8,7 @@ joined, split and formatted like other texts. Later, known values can replace th
 - ``OWN_FOLDER`` for the folder of the launch file;
 - an absolute path that no file system has, for the install prefix of a package;
 - marks around the name of a launch configuration, a Python expression or a command;
+- marks between the parts of a joined path of which one is known only at launch;
 - marks around the name of an open argument, and around an expression with open arguments. The value of an open argument is
   chosen after the evaluation, as in the page of ``ros-lint launch --format html``.
 """
@@ -36,6 +37,10 @@ _DEFAULT = "\ue016"
 _PRESENT = "\ue017"
 _OPEN = ("\ue018", "\ue019")
 _OPEN_EXPRESSION = ("\ue01a", "\ue01b")
+_JOINED = "/\ue01c"
+"""A slash between two parts of a joined path, one of which is known only at launch and may be empty or absolute."""
+_APPENDED = "\ue01d"
+"""The place between two parts of a joined path if the first part ends with a slash and the second is known only at launch."""
 
 MOST = 24
 """The maximum number of possible values of a text."""
@@ -50,8 +55,8 @@ Real texts need up to 34.
 LONGEST = 20_000
 """The maximum length of a text in characters."""
 
-_ANY_MARK = re.compile("[\ue000-\ue01b]")
-_UNSETTLED = re.compile("[\ue000\ue003-\ue01b]")
+_ANY_MARK = re.compile("[\ue000-\ue01d]")
+_UNSETTLED = re.compile("[\ue000\ue003-\ue01d]")
 _OPEN_ARGUMENT = re.compile("\ue018([^\ue018\ue019]*)\ue019")
 _INNER_OPEN_EXPRESSION = re.compile("\ue01a([^\ue01a\ue01b]*)\ue01b")
 # A path ends where a command line or a list of paths continues; an unknown piece belongs to it.
@@ -71,6 +76,8 @@ _ROOTED = re.compile(rf"/{_ROOT}([^/:;,'\"]*)(?:/share/([^\s'\":;,{_ROOT}]*))?")
 _RENAMES = ("__node:=", "__name:=", "__ns:=")
 # The same path characters as in _PREFIX.
 _IN_OWN_FOLDER = re.compile(rf"{OWN_FOLDER}((?:/[^/\s'\":;,\ue012-\ue015]*)+)")
+_JOINTS = re.compile("/?\ue01c|\ue01d")
+_LAST_PATH = re.compile("[^\\s'\":;,]*\\Z")
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
 
@@ -155,6 +162,37 @@ def _escaped(text: str) -> str:
     return text.replace("\\", "\\\\").replace("'", "\\'").replace("\n", "\\n")
 
 
+def join_path(parts: Iterable[str]) -> str:
+    """Return a path joined from parts, as os.path.join() does. Parts that are known only at launch are joined by :func:`fill`."""
+    result = ""
+    for part in parts:
+        if not result or part.startswith("/"):
+            result = part
+        else:
+            is_known = not (_ENDS.match(part) or _ENDS.match(result[-1]))
+            slash = "" if result.endswith("/") else "/"
+            result += f"{slash}{part}" if is_known else f"{_JOINED if slash else _APPENDED}{part}"
+    return result
+
+
+def without_joints(text: str) -> str:
+    """Return a text in which the parts of each joined path are separated by a slash, even if a part is empty or absolute."""
+    return text.replace(_JOINED[1:], "").replace(_APPENDED, "")
+
+
+def _rejoined(text: str) -> str:
+    """Return a text in which the parts of each joined path are joined, as os.path.join() does."""
+    result, *parts = _JOINTS.split(text)
+    for part in parts:
+        path = _LAST_PATH.search(result)
+        start = path.start() if path is not None else 0
+        if part.startswith("/"):
+            result = result[:start] + part
+        else:
+            result = f"{result}{'' if start == len(result) or result.endswith('/') else '/'}{part}"
+    return result
+
+
 def command(text: str) -> str:
     """Return a text in special characters (marks) that represents the output of the command line ``text``."""
     return f"{_COMMAND[0]}{text}{_COMMAND[1]}"
@@ -215,7 +253,7 @@ def readable(text: str) -> str:
     text = _with_logic(text) if f"{_EXPRESSION[0]}_" in text else text
     text = _ENDS.sub(lambda match: _SHOWN.get(match[0], ")"), text.replace(f"{OWN_FOLDER}/", "$(dirname)/"))
     text = text.replace(OWN_FOLDER, "$(dirname)").replace(_PRESENT, "").replace(_DEFAULT, " ")
-    return _ROOTED.sub(_readable_root, text).replace(UNKNOWN, "?")
+    return _ROOTED.sub(_readable_root, without_joints(text)).replace(UNKNOWN, "?")
 
 
 def _with_logic(text: str) -> str:
@@ -393,13 +431,18 @@ def joined(rows: Iterable[tuple[str, ...]], function: Callable[[tuple[str, ...]]
     return texts if 0 < len(texts) <= MOST else (UNKNOWN,)
 
 
-def fill(text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: Callable[[str], str]) -> tuple[str, ...]:
+def fill(
+    text: str, values: Callable[[str], tuple[str, ...] | None], evaluate: Callable[[str], str], *, rejoin: bool = True
+) -> tuple[str, ...]:
     """Return the possible values of a text after its launch configurations and expressions are replaced by their values.
 
     ``values(name)`` returns the possible values of a configuration, None if the configuration is not set. ``evaluate`` returns
-    the value of an expression without unknown parts, UNKNOWN if it cannot be computed.
+    the value of an expression without unknown parts, UNKNOWN if it cannot be computed. If ``rejoin`` is False, an empty part
+    of a joined path remains visible as two slashes.
     """
     filled = _Filling(values).of(text, frozenset()) if _CONFIGURATION[0] in text else (text,)
+    if any(map(_JOINTS.search, filled)):
+        filled = tuple(map(_rejoined if rejoin else without_joints, filled))
     if len(filled) == 1:
         return (_evaluate_expressions(filled[0], evaluate),)
     return tuple(dict.fromkeys([_evaluate_expressions(candidate, evaluate) for candidate in filled]))

@@ -15,6 +15,10 @@ LAUNCH_RUNTIME: Final = LAUNCH_LIBRARIES | {"ament_index_python"}
 """The Python packages that exist in every installation of ``ros2 launch``."""
 
 
+ACCEPTED_PROBLEMS: Final = frozenset({"forgotten-path", "no-slash", "substitution-as-text"})
+"""Kinds of problems of a launch file that ``ros2 launch`` does not detect: it starts the file with wrong values."""
+
+
 class LaunchValue(NamedTuple):
     """The possible values of a text in a launch file."""
 

@@ -66,8 +66,6 @@ from ros_lint.api import (
 
 _FOR_OLD = re.compile(r"(?:^|[_.-])(?:crystal|dashing|el[eo]quent|foxy)(?:[_.-]|$)")
 """Pattern of launch file names with a distribution before Galactic, which still has the keywords that Galactic removed."""
-_OTHER_RULES = frozenset({"forgotten-path", "no-slash", "substitution-as-text"})
-"""Kinds of problems that ros2 launch accepts: `launch-misjoined-path` and `launch-substitution-as-value` report them."""
 _MAY_BE_NEWER = frozenset({"unknown-tag", "unexpected-attribute", "unexpected-child", "unexpected-keyword"})
 
 
@@ -77,7 +75,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             *_newer(launch_file.file.version_problems, workspace.target),
             *too_new(launch_file.file.syntax, workspace.target.chosen),
         )
-        rejected = (problem for problem in launch_file.file.problems if problem.kind not in _OTHER_RULES)
+        problems_here = launch_file.file.problems
+        rejected = (problem for problem in problems_here if problem.kind not in launch.ACCEPTED_PROBLEMS)
         problems = (*rejected, *newer)
         if not problems:
             continue

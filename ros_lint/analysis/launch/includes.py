@@ -9,7 +9,7 @@ from ros_lint.analysis.memo import cached_by_workspace
 from ros_lint.base.paths import parent, resolve, strip_folder
 from ros_lint.base.text import Span
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, fill, installed_place, is_plain, is_settled, named_in
-from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue, values_of_action, walk_actions
+from ros_lint.facts.launch import ACCEPTED_PROBLEMS, LaunchAction, LaunchFile, LaunchValue, values_of_action, walk_actions
 from ros_lint.facts.sources import ParameterFile
 from ros_lint.workspace.model import Package, Workspace
 
@@ -169,10 +169,7 @@ class IncludeResolver:
         return record
 
 
-_OF_VALUES = frozenset({
-    "forgotten-path", "no-condition", "no-slash", "no-text", "removed-keyword", "substitution-as-text", "substitution-refused",
-    "text-divided",
-})  # fmt: skip
+_OF_VALUES = ACCEPTED_PROBLEMS | {"no-condition", "no-text", "removed-keyword", "substitution-refused", "text-divided"}
 """Kinds of problems in single values. In spite of them, all actions and arguments of the file are known."""
 
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from ros_lint.base.text import Span
-    from ros_lint.collectors.launch.expand import Expansion
+    from ros_lint.collectors.launch.expansion import Expansion
     from ros_lint.facts.launch import LaunchFile
     from ros_lint.workspace.model import Workspace
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.budget import Budget
+from ros_lint.collectors.launch.expansion import Argument, Circle, Expansion, Missing, Refused, Started, Unset
 from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, Texts, final_parameters, of_command_line
 from ros_lint.collectors.launch.scope import Filling, LaunchScope
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_node_renaming, is_settled, joined
@@ -19,129 +20,11 @@ if TYPE_CHECKING:
 
     from ros_lint.base.text import Span
     from ros_lint.collectors.launch.final_parameters import Contents, FinalParameters
-    from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchFile
+    from ros_lint.facts.launch import LaunchAction, LaunchFile
 
 _MAX_DEPTH = 20
 _MAX_STARTED = 5_000
 _MAX_ACTIONS = 100_000
-
-
-class Started(NamedTuple):
-    """A node, component, process or included file that a launch file starts."""
-
-    kind: str
-    """The kind of the started action: ``node``, ``component``, ``process`` or ``include``."""
-    package: Texts
-    """Possible packages, () if there is no package. ``launch.is_plain`` returns False for a text with an unknown part."""
-    target: Texts
-    """Possible values of the executable, the component class, the command line or the path of the included file."""
-    name: Texts
-    """Possible names that the launch file gives to the node, () if it sets no name."""
-    namespace: Texts
-    """Possible full namespaces of the node."""
-    parameters: tuple[tuple[str, Texts], ...]
-    """Parameters with their possible values, by name. A parameter file has the name ""."""
-    remappings: tuple[tuple[Texts, Texts], ...]
-    """Remappings: the possible old names and the possible new names."""
-    arguments: tuple[tuple[str, Texts], ...]
-    """Launch arguments of an include with their possible values, by name."""
-    certain: bool
-    """False if the action is started under a condition whose truth is unknown."""
-    span: Span
-    """Place of the action in its launch file."""
-    depth: int
-    """The number of includes between the launched file and the action."""
-    container: Texts = ()
-    """The possible full names of the container that loads the component."""
-    environment: tuple[tuple[str, Texts], ...] = ()
-    """Environment variables that the launch file sets for the node or process, with their possible values."""
-    file: str = ""
-    """The path of an included file, as :attr:`LaunchFile.path`; "" if the file could not be read."""
-    unknown: tuple[str, ...] = ()
-    """The reasons why parts of the texts are unknown."""
-    when: tuple[LaunchCondition, ...] = ()
-    """The conditions of unknown truth around the action; empty if ``certain``."""
-    later: bool = False
-    """True if a timer or an event starts the action."""
-    words: tuple[Texts, ...] = ()
-    """The command-line arguments of a node, each with its possible values."""
-    via: Span | None = None
-    """The place of the include in the launched file that leads to this action, None if the launched file contains it."""
-    final: FinalParameters | None = None
-    """The parameters with which the node or component starts; None if they are not requested."""
-
-
-class Argument(NamedTuple):
-    """A declared launch argument and its possible values in an expansion."""
-
-    name: str
-    """Name of the argument."""
-    texts: Texts
-    """Possible values of the argument."""
-    span: Span
-    """Place of the declaration."""
-    depth: int
-    """Number of includes between the launched file and the declaration."""
-    given: bool
-    """True if the caller or the including file passes the value, False if the value is the default."""
-    choices: tuple[str, ...] = ()
-    """The values that the argument accepts; () if it accepts any value."""
-    description: str = ""
-    """The description of the argument; "" if there is none or if it is computed."""
-    required: bool = False
-    """True if the argument has no default value."""
-    computed: bool = False
-    """True if the value is a default that depends on other values, such as those of other arguments."""
-
-
-class Missing(NamedTuple):
-    """A declared launch argument that has no default value and to which no value is passed."""
-
-    name: str
-    """Name of the argument."""
-    span: Span
-    """The place of the declaration."""
-    include: Span | None = None
-    """The place of the include that lacks the argument, None for an argument of the launched file."""
-
-
-class Refused(NamedTuple):
-    """A value of a launch argument that is not among the ``choices`` of the declaration of the argument."""
-
-    name: str
-    """Name of the argument."""
-    value: str
-    """The value that is not accepted."""
-    choices: tuple[str, ...]
-    """The values that the argument accepts."""
-    span: Span
-    """The place of the declaration."""
-
-
-class Circle(NamedTuple):
-    """An include of a file that is already being included with equal launch configurations: an endless recursion."""
-
-    path: str
-    """The path of the included file, as :attr:`LaunchFile.path`."""
-    span: Span
-    """The place of the include."""
-
-
-class Expansion(NamedTuple):
-    """The result of an expansion: all that a launch file starts, in order, and the errors in its launch arguments."""
-
-    started: tuple[Started, ...]
-    """Nodes, components, processes and includes."""
-    missing: tuple[Missing, ...]
-    """Required arguments without a value."""
-    complete: bool
-    """False if the expansion stopped early, because includes are cyclic or a limit was exceeded."""
-    arguments: tuple[Argument, ...] = ()
-    """The arguments in the order of their declarations."""
-    refused: tuple[Refused, ...] = ()
-    """Values that are not among the choices of their arguments."""
-    circles: tuple[Circle, ...] = ()
-    """Includes with endless recursion."""
 
 
 def expand(
@@ -169,6 +52,7 @@ def expand(
         tuple(run.arguments),
         tuple(run.refused),
         tuple(run.circles),
+        tuple(run.unset),
     )
 
 
@@ -203,7 +87,10 @@ class _Run:
         self.arguments: list[Argument] = []
         self.refused: list[Refused] = []
         self.circles: list[Circle] = []
+        self.unset: dict[Unset, None] = {}
         self.complete = True
+        self._may_be_set = False
+        """True if something that was not followed may have set any launch configuration."""
         self._budget = Budget(_MAX_ACTIONS)
         self._via: Span | None = None
         self._delayed: list[_Delayed] = []
@@ -212,6 +99,7 @@ class _Run:
 
     def file(self, file: LaunchFile, passed: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
+        self._may_be_set = bool(file.opaque)
         self._open.append((file.path, dict(passed)))
         self._values = passed
         self._actions(file.actions, LaunchScope(passed, (folder or ".",)))
@@ -245,7 +133,9 @@ class _Run:
         if not self._budget.affords() or len(self.started) > _MAX_STARTED:
             self.complete = False
             return scope
+        self._filling.unset.clear()
         truth, when = self._filling.truth(action.conditions, scope)
+        self._note_unset(action, scope)
         if truth is False:
             return scope
         outer = scope
@@ -257,6 +147,7 @@ class _Run:
             case "set":
                 for name in self._texts(action.target, scope):
                     self._set(scope, name, self._texts(action.value, scope), scope.certain)
+                self._note_unset(action, scope)
             case "unset":
                 for name in self._texts(action.target, scope):
                     if scope.certain:
@@ -290,6 +181,13 @@ class _Run:
                 self._actions(action.children, scope)
         return outer
 
+    def _note_unset(self, action: LaunchAction, scope: LaunchScope) -> None:
+        """Record the launch configurations without value that were needed since the last call."""
+        if scope.certain and not scope.later and not self._may_be_set:
+            for name in self._filling.unset:
+                self.unset[Unset(name, action.span, scope.include)] = None
+        self._filling.unset.clear()
+
     def _declare(self, action: LaunchAction, scope: LaunchScope) -> None:
         for name in self._texts(action.target, scope):
             is_given = name in scope.values
@@ -299,6 +197,7 @@ class _Run:
                 scope.values[name] = (UNKNOWN,)
             elif not is_given:
                 self._set(scope, name, self._texts(action.value, scope), scope.certain)
+                self._note_unset(action, scope)
             texts = scope.values[name]
             required = action.value is None
             self.arguments.append(
@@ -351,6 +250,7 @@ class _Run:
         if not scope.certain and action.kind != "parameter":
             texts = (*texts, UNKNOWN)
         names = self._texts(action.target, scope) or ("",)
+        self._note_unset(action, scope)
         if action.kind == "remap":
             return scope._replace(remappings=(*scope.remappings, (names, texts)))
         if action.kind == "parameter":
@@ -377,6 +277,7 @@ class _Run:
             inner = inner._replace(container=name, process=())
         for configuration, value in action.arguments:
             self._set(inner, configuration, self._texts(value, scope), certain=True)
+        self._note_unset(action, scope)
         after = self._actions(action.children, inner)
         return scope if action.has_scope else after
 
@@ -387,6 +288,7 @@ class _Run:
                 self._set(scope, name, self._texts(value, scope), scope.certain)
         path = started.target[0] if len(started.target) == 1 else UNKNOWN
         file = self._files(path) if is_settled(path) else None
+        self._may_be_set |= file is None or bool(file.opaque)
         if file is None:
             return scope
         self.started[-1] = started._replace(file=file.path)
@@ -447,6 +349,7 @@ class _Run:
             words=() if is_process else words,
             via=self._via,
         )
+        self._note_unset(action, scope)
         if is_node and self._contents is not None:
             started = started._replace(final=self._final(started, given, scope, self._contents))
         self.started.append(started)

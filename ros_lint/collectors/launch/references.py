@@ -309,7 +309,7 @@ class References:
     def _fill(self, text: str) -> tuple[str, ...]:
         texts = self._filled_texts.get(text)
         if texts is None:
-            texts = self._filled_texts[text] = fill(text, self._value, evaluate)
+            texts = self._filled_texts[text] = fill(text, self._value, evaluate, rejoin=False)
         return texts
 
     def note_look_up(self, package: str, value: LaunchValue, conditions: Sequence[LaunchCondition]) -> None:

@@ -71,6 +71,8 @@ class Filling:
         self._environment = environment
         self.unknown: dict[str, None] = {}
         """Reasons why parts of the evaluated texts are unknown, since this dictionary was last cleared."""
+        self.unset: dict[str, None] = {}
+        """Launch configurations without value and default that evaluated texts need, since this dictionary was last cleared."""
 
     def texts(self, value: LaunchValue | None, scope: LaunchScope) -> Texts:
         """Return the possible texts of a value in a scope, () if ``value`` is None."""
@@ -97,6 +99,8 @@ class Filling:
                     results[filled] = None
                 if UNKNOWN in filled:
                     self.unknown.update(dict.fromkeys(self._reasons(text, scope)))
+                    if len(texts) == 1:
+                        self.unset.update(dict.fromkeys(self._unset_in(text, scope)))
         return tuple(results)
 
     def _fill(self, text: str, scope: LaunchScope) -> Texts:
@@ -125,13 +129,23 @@ class Filling:
         if UNKNOWN in text:
             yield "it is computed in a way that ros-lint cannot follow"
 
+    def _unset_in(self, text: str, scope: LaunchScope) -> Iterator[str]:
+        """Yield the launch configurations in a text that have no value in a scope, and no default in the text."""
+        for name, has_default, _ in configurations(text):
+            if not has_default and not name.startswith("$") and is_settled(name) and name not in scope.values:
+                yield name
+
     def given(self, name: str, value: LaunchValue, scope: LaunchScope) -> GivenParameter | None:
         """Return a parameter or parameter file (``name`` "") of a node in a scope, None if its conditions do not hold."""
         if not self.may_hold(value.conditions, scope):
             return None
         certain = not value.conditions or self.truth(value.conditions, scope)[0] is True
+        unset = dict(self.unset)
+        texts = self.texts(value, scope)
+        if not certain:
+            self.unset = unset
         changes = [self._change(change, scope) for change in value.changes if self.may_hold(change.conditions, scope)]
-        return GivenParameter(name, self.texts(value, scope), value.span, certain, tuple(changes))
+        return GivenParameter(name, texts, value.span, certain, tuple(changes))
 
     def _change(self, change: FileChange, scope: LaunchScope) -> FilledChange:
         values, keys = (tuple([(old, self.texts(new, scope)) for old, new in pairs]) for pairs in (change.values, change.keys))
@@ -147,11 +161,11 @@ class Filling:
     def may_hold(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> bool:
         """Return whether all conditions may hold in a scope: none of them is false.
 
-        In contrast to :meth:`truth`, it is not recorded in ``unknown`` why a condition is unknown.
+        In contrast to :meth:`truth`, the attributes ``unknown`` and ``unset`` do not change.
         """
-        reasons = dict(self.unknown)
+        reasons, unset = dict(self.unknown), dict(self.unset)
         truth, _ = self.truth(conditions, scope)
-        self.unknown = reasons
+        self.unknown, self.unset = reasons, unset
         return truth is not False
 
     def truth(self, conditions: Iterable[LaunchCondition], scope: LaunchScope) -> tuple[bool | None, tuple[LaunchCondition, ...]]:

@@ -10,7 +10,7 @@ from ros_lint.collectors.symbolic_text import UNKNOWN, readable
 if TYPE_CHECKING:
     from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
     from ros_lint.cli.commands.launch.marks import Marks
-    from ros_lint.collectors.launch.expand import Expansion, Started
+    from ros_lint.collectors.launch.expansion import Expansion, Started
     from ros_lint.facts.launch import LaunchCondition, LaunchFile
     from ros_lint.workspace.target import TargetDistro
 

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from ros_lint.base.text import Span
     from ros_lint.cli.commands.launch.expanded import ExpandedFile
     from ros_lint.cli.commands.launch.marks import Marks
-    from ros_lint.collectors.launch.expand import Argument, Expansion, Started
+    from ros_lint.collectors.launch.expansion import Argument, Expansion, Started
 
 _MOST_UNKNOWN = 20
 

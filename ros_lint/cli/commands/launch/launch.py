@@ -23,13 +23,14 @@ from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
 from ros_lint.cli.commands.launch.marks import Marks, marks_of
 from ros_lint.cli.commands.query import CommandOutput, current_workspace, enclosing_workspace, run_query
 from ros_lint.cli.session import Session, UsageError
-from ros_lint.collectors.launch.expand import Expansion, expand
+from ros_lint.collectors.launch.expand import expand
 from ros_lint.collectors.symbolic_text import readable
+from ros_lint.facts.launch import ACCEPTED_PROBLEMS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
-    from ros_lint.collectors.launch.expand import Started
+    from ros_lint.collectors.launch.expansion import Expansion, Started
     from ros_lint.facts.launch import LaunchFile
     from ros_lint.workspace.model import Workspace
 
@@ -199,12 +200,15 @@ def _problems(file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion, 
     """Yield a message with a place for each reason why launching would fail."""
     for launch_file in (file, *lookup.followed):
         for problem in launch_file.problems:
-            yield f"{problem.span}: {problem.message}"
+            if problem.kind not in ACCEPTED_PROBLEMS:
+                yield f"{problem.span}: {problem.message}"
     for missing in expansion.missing:
         if missing.include is None:
             yield f"{missing.span}: the argument '{missing.name}' has no default; pass {missing.name}:=VALUE"
         else:
             yield f"{missing.include}: the argument '{missing.name}' is not passed here and has no default at {missing.span}"
+    for unset in expansion.unset:
+        yield f"{unset.span}: the launch configuration '{unset.name}' is not set here; pass {unset.name}:=VALUE, or declare it"
     for invalid in expansion.refused:
         choices = ", ".join(invalid.choices)
         yield f"{invalid.span}: '{invalid.value}' is not a valid choice for the argument '{invalid.name}'; use one of {choices}"

@@ -124,12 +124,24 @@ def _wrong_type(launch_object: LaunchObject) -> Problem | None:
     if name in _NODES and isinstance(launch_object.get(-1, "parameters"), dict):
         message = f"'parameters' of {name} must be a list; write [{{...}}]"
         return Problem("wrong-type", message, span_of(launch_object.written(-1, "parameters"), launch_object.source))
+    for key, empty in _empty_lists(launch_object.written(-1, "parameters")) if name in _NODES else ():
+        message = f"the parameter {key} is an empty list, whose type launch cannot determine; omit the parameter"
+        return Problem("wrong-type", message, span_of(empty, launch_object.source))
     if name == "LaunchDescription":
         entities = launch_object.get(0, "initial_entities")
         if isinstance(entities, LaunchObject) and entities.name in ACTIONS:
             message = f"LaunchDescription needs a list; write [{entities.name}(...)]"
             return Problem("wrong-type", message, span_of(launch_object.written(0, "initial_entities"), launch_object.source))
     return None
+
+
+def _empty_lists(parameters: ast.expr) -> Iterator[tuple[str, ast.expr]]:
+    """Yield the keys and values of the empty lists that the source ``[{'a': []}]`` of the parameters of a node contains."""
+    for element in parameters.elts if isinstance(parameters, ast.List) else ():
+        if isinstance(element, ast.Dict):
+            for key, value in zip(element.keys, element.values, strict=True):
+                if isinstance(key, ast.Constant) and isinstance(value, (ast.List, ast.Tuple)) and not value.elts:
+                    yield repr(key.value), value
 
 
 def _unknown_keyword(keyword: ast.keyword, name: str, keywords: frozenset[str], launch_object: LaunchObject) -> Problem:

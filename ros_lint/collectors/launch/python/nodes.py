@@ -167,6 +167,18 @@ def _process(walker: Walker, launch_object: LaunchObject, conditions: Conditions
     return [process, *later(walker, launch_object, "on_exit")]
 
 
+def _test_process(*words: str) -> ActionBuilder:
+    """Return the builder of the process of a class or function of launch_testing, with ``words`` before the argument ``path``."""
+
+    def build(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+        place, path = place_of(launch_object), walker.value(launch_object, -1, "path")
+        values = (*[LaunchValue((word,), place) for word in words], *([path] if path else ()))
+        arguments = tuple([("", value) for value in values])
+        return [LaunchAction("process", place, target=values[0] if values else None, arguments=arguments, conditions=conditions)]
+
+    return build
+
+
 def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) -> tuple[tuple[str, LaunchValue], ...]:
     """Return the texts that the Python arguments ``*names`` of a node contain, and those of ``prefix`` and ``cwd``.
 
@@ -326,4 +338,7 @@ BUILDERS: Mapping[str, ActionBuilder] = {
     "LoadComposableNodes": _load,
     "ExecuteProcess": _process,
     "ExecuteLocal": _process,
+    "GTest": _test_process(),
+    "KeepAliveProc": _test_process(UNKNOWN, "-c", UNKNOWN),
+    "PyTest": _test_process(UNKNOWN, "-m", "pytest"),
 }

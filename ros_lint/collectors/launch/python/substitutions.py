@@ -5,7 +5,6 @@ In a symbolic text, special characters stand for the parts that are known only w
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -25,7 +24,7 @@ from ros_lint.collectors.python.interpreter.values import (
     plain,
     under,
 )
-from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, distinct, joined, quoted
+from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, distinct, join_path, joined, quoted
 from ros_lint.facts.launch import LaunchCondition
 
 _MAX_DEPTH = 60
@@ -120,7 +119,7 @@ def _path(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str,
     parts = plain(launch_object.get(0, "substitutions", "path"))
     if not isinstance(parts, (list, tuple)):
         return texts(parts, evaluation)
-    return joined([texts(part, evaluation) for part in parts], lambda row: posixpath.join("", *row))
+    return joined([texts(part, evaluation) for part in parts], join_path)
 
 
 def _share(launch_object: LaunchObject, evaluation: TextEvaluation) -> tuple[str, ...]:

@@ -10,7 +10,6 @@ values beyond the limits are unknown.
 from __future__ import annotations
 
 import ast
-import posixpath
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 
@@ -50,7 +49,7 @@ from ros_lint.collectors.python.interpreter.values import (
 )
 from ros_lint.collectors.python.syntax import placed
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY
-from ros_lint.collectors.symbolic_text import UNKNOWN, is_settled, joined
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_settled, join_path, joined
 from ros_lint.facts.launch import LaunchCondition
 
 STEPS = 150_000
@@ -321,7 +320,7 @@ class Machine(Interpreter):
             ast.copy_location(call, node)
             return LaunchObject("PathJoinSubstitution", [[left, *right]], {}, call, frame.source)
         rows = [text_of(left), *[text_of(part) for part in right]]
-        texts = joined(rows, lambda row: posixpath.join("", *row))
+        texts = joined(rows, join_path)
         return union(guarded_text(text, FilePath(text)) for text in texts)
 
     def open_file(self, path: str, at: ast.expr, source: Source) -> Value:

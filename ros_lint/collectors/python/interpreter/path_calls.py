@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Callable, Mapping
 
 from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule
 from ros_lint.collectors.python.interpreter.path_functions import normalized, split, split_suffix
 from ros_lint.collectors.python.interpreter.values import FilePath, Value, guarded_text, union
-from ros_lint.collectors.symbolic_text import joined
+from ros_lint.collectors.symbolic_text import join_path, joined
 
 
 def _join(call: LibraryCall) -> Value:
     for argument in call.arguments:
         call.machine.record_misuse(argument, "joined", call.node, call.frame)
     rows = [call.texts(position) for position in range(len(call.arguments))]
-    return call.result(joined(rows, lambda row: posixpath.join("", *row)))
+    return call.result(joined(rows, join_path))
 
 
 def on_path(function: Callable[[str], str]) -> Rule:
@@ -33,7 +32,7 @@ def _split(function: Callable[[str], tuple[str, ...]]) -> Rule:
 def new_path(call: LibraryCall) -> Value:
     """Model of ``pathlib.Path()``: return the path that joins all arguments."""
     rows = [call.texts(position) for position in range(len(call.arguments))]
-    paths = joined(rows, lambda row: posixpath.join("", *row)) if rows else (".",)
+    paths = joined(rows, join_path) if rows else (".",)
     return union(guarded_text(text, FilePath(text)) for text in paths)
 
 

@@ -39,7 +39,7 @@ from ros_lint.collectors.symbolic_text import (
 
 if TYPE_CHECKING:
     from ros_lint.cli.commands.launch.expanded import ExpandedFile
-    from ros_lint.collectors.launch.expand import Argument, Expansion, Started
+    from ros_lint.collectors.launch.expansion import Argument, Expansion, Started
     from ros_lint.facts.launch import LaunchCondition
 
 _MOST_RESULTS = 256
