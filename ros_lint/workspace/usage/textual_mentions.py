@@ -351,8 +351,8 @@ _SEPARATOR = re.compile(rb"[-_/]|::")
 def _spellings(name: str) -> tuple[str, ...]:
     """Return the forms of a package name in code: with dashes, as a nested namespace, as an include folder.
 
-    Code inside the outer namespace omits that namespace, and libraries omit the prefix ``lib``. A form of ``tf2_eigen`` and
-    of similar packages is ``tf2``, because code calls the conversions of these packages as functions of ``tf2``.
+    Code inside the outer namespace omits that namespace, and libraries omit the prefix ``lib``. The forms of ``tf2_eigen`` and
+    of similar packages are the functions of ``tf2`` that these packages define for their types.
     """
     spellings = [name, name.replace("-", "_"), name.replace("_", "-"), name.replace("_", "::", 1), name.replace("_", "/", 1)]
     inner = name.partition("_")[2]
@@ -360,10 +360,24 @@ def _spellings(name: str) -> tuple[str, ...]:
         spellings.append(f"{inner}::")
     if name.startswith("lib"):
         spellings += [f"{name[3:]}/", f"{name[3:]}::"]
-    return tuple(dict.fromkeys([*spellings, "tf2"] if name in _CONVERSIONS else spellings))
+    return tuple(dict.fromkeys([*spellings, *_CONVERTERS] if name in _CONVERSIONS else spellings))
 
 
 _CONVERSIONS = frozenset({"tf2_bullet", "tf2_eigen", "tf2_eigen_kdl", "tf2_geometry_msgs", "tf2_kdl", "tf2_sensor_msgs"})
+"""Packages whose headers define the functions of :data:`_CONVERTERS` for further types."""
+_CONVERTERS = (
+    "toMsg",
+    "fromMsg",
+    "doTransform",
+    "convert",
+    "transform",
+    "getYaw",
+    "getEulerYPR",
+    "to_msg",
+    "from_msg",
+    "do_transform",
+)
+"""Functions of tf2 (``tf2/convert.hpp``, ``tf2/utils.hpp``, ``tf2_ros/buffer_interface.hpp``) and their forms in Python."""
 
 
 _WORD_JOINERS = b"-_"
