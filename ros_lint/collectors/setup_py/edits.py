@@ -56,7 +56,8 @@ def _files(to: EditableList, package: str, paths: Sequence[str], others: Sequenc
     folder = posixpath.dirname(paths[0])
     target = joined(to, package, "share/", f"/{folder}" if folder else "")
     ending = _ending(paths)
-    inside = [file for file in others if file.startswith(f"{folder}/")]
+    # A glob does not match hidden files.
+    inside = [file for file in others if file.startswith(f"{folder}/") and not posixpath.basename(file).startswith(".")]
     files = [file for file in inside if posixpath.dirname(file) == folder]
     alike = [file for file in files if file.endswith(ending)]
     if to.glob and folder and (ending or inside == files) and sorted(alike) == sorted(paths):
