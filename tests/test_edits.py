@@ -46,6 +46,20 @@ def test_an_edit_of_two_fixes_is_applied_once() -> None:
 def test_a_fix_that_overlaps_an_earlier_one_is_not_chosen() -> None:
     first, second, third = fix((0, 3, "")), fix((1, 2, "x"), (9, 9, "y")), fix((3, 3, "z"))
     assert edits.choose([first, second, third]) == (first, third)
+    assert edits.choose([third, first]) == (third, first)
+
+
+def test_an_insertion_inside_of_replaced_text_is_an_overlap() -> None:
+    deletion, insertion = fix((0, 3, "")), fix((1, 1, "x"))
+    assert edits.choose([deletion, insertion]) == (deletion,)
+    assert edits.choose([insertion, deletion]) == (insertion,)
+    elsewhere = Fix("", tuple(edit._replace(span=edit.span._replace(path="g")) for edit in insertion.edits))
+    assert edits.choose([deletion, elsewhere]) == (deletion, elsewhere)
+
+
+def test_an_edit_that_two_fixes_share_is_no_overlap() -> None:
+    first, second = fix((0, 3, "x")), fix((0, 3, "x"), (9, 14, "y"))
+    assert edits.choose([first, second]) == (first, second)
 
 
 @pytest.mark.parametrize(
@@ -57,6 +71,12 @@ def test_a_fix_that_overlaps_an_earlier_one_is_not_chosen() -> None:
         ([(5, "a", "\na\n"), (7, "b", "\nb\n")], "\na\n\nb\n"),
         ([(5, "a", "a\n\n"), (7, "b", "\nb\n")], "a\n\nb\n"),
         ([(0, "", "a\n"), (0, "", "b\n")], "b\na\n"),
+        ([(0, "", "\na\n"), (0, "", "\nb\n")], "\nb\n\na\n"),
+        ([(1, "a", "\na\n"), (1, "b", "\nb\n")], "\na\nb\n"),
+        ([(5, "a", "a\n\n"), (7, "b", "b\n")], "a\n\nb\n"),
+        ([(5, "a", "a\r\n\r\n"), (5, "b", "b\r\n\r\n")], "a\r\nb\r\n\r\n"),
+        ([(5, "a", "a\r\n\r\n"), (7, "b", "\r\nb\r\n")], "a\r\n\r\nb\r\n"),
+        ([(5, "a", "a\r\r"), (7, "b", "\rb\r")], "a\r\rb\r"),
     ],
 )
 def test_a_group_of_insertions_is_separated_by_one_blank_line(put: list[tuple[int, str, str]], expected: str) -> None:
@@ -123,7 +143,27 @@ def test_a_file_is_created(tmp_path: Path) -> None:
     assert unified("new", None, "a\n") == "--- /dev/null\n+++ b/new\n@@ -0,0 +1 @@\n+a\n"
 
 
-def test_an_edit_beyond_the_end_of_the_file_is_an_error() -> None:
+def test_a_file_that_cannot_be_read_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    tree = DiskTree(str(tmp_path))
+    with pytest.raises(edits.EditError, match="^folder: cannot be read: ."):
+        edits.text_of(tree, "folder")
+    assert edits.text_of(tree, "new").text == ""
+
+
+def test_a_device_is_written_directly() -> None:
+    edits.write(os.devnull, b"data")
+    assert not os.path.isfile(os.devnull)
+    with pytest.raises(edits.EditError, match="^/dev/full: cannot be written: No space left on device$"):
+        edits.write("/dev/full", b"data")
+
+
+def test_a_file_in_a_missing_folder_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(edits.EditError, match="a: cannot be written: No such file or directory; nothing was changed$"):
+        edits.write(str(tmp_path / "nowhere" / "a"), b"data")
+
+
+def test_a_fix_needs_all_of_its_edits() -> None:
     edit = Edit(Span("a", 1, 1, 1, 1), "x")
     assert Fix.of("write x", edit, safe=False) == Fix("write x", (edit,), safe=False)
     assert Fix.of("write x", edit, edit) == Fix("write x", (edit, edit))

@@ -78,12 +78,13 @@ def test_a_failing_disk_is_reported_with_the_files_written_before(two: Path, mon
     assert {path.name: path.read_bytes() for path in two.iterdir()} == {"a": b"new", "b": b"old"}
 
 
-def test_a_folder_without_write_permission_prevents_all_changes(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("missing", [os.W_OK, os.X_OK], ids=["write", "search"])
+def test_a_folder_without_permission_prevents_all_changes(two: Path, monkeypatch: pytest.MonkeyPatch, missing: int) -> None:
     """The folder belongs to somebody else, so its permission bits say nothing."""
     (two / "d").mkdir()
     (two / "d" / "c").write_bytes(b"old")
     access = os.access
-    monkeypatch.setattr(os, "access", lambda place, mode: access(place, mode) and not place.endswith("d"))
+    monkeypatch.setattr(os, "access", lambda place, mode: access(place, mode) and not (place.endswith("d") and mode & missing))
     with pytest.raises(edits.EditError, match="^d/c: cannot be written: no permission .*; nothing was changed$"):
         edits.write_all(str(two), {"a": b"new", "d/c": b"new"}, {"a": b"old", "d/c": b"old"})
     assert (two / "a").read_bytes() == b"old"
@@ -97,6 +98,28 @@ def test_an_interruption_leaves_no_temporary_file(two: Path, monkeypatch: pytest
     with pytest.raises(KeyboardInterrupt):
         edits.write_all(str(two), AFTER, BEFORE)
     assert {path.name: path.read_bytes() for path in two.iterdir()} == BEFORE
+
+
+def test_new_contents_are_on_the_disk_before_they_replace_the_old(two: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    events: list[object] = []
+    replace = os.replace
+
+    def replaced(source: str, target: str) -> None:
+        events.append(os.path.basename(target))
+        replace(source, target)
+
+    monkeypatch.setattr(os, "fsync", lambda handle: events.append(os.fstat(handle).st_size))
+    monkeypatch.setattr(os, "replace", replaced)
+    edits.write_all(str(two), {"a": b"longer", "b": b"new"}, BEFORE)
+    assert events == [6, "a", 3, "b"]
+
+
+def test_a_link_with_the_name_of_a_temporary_file_is_kept(two: Path) -> None:
+    link = two / ".ros-lint-abcdefgh.part"
+    link.symlink_to("b")
+    os.utime(two / "b", (0, 0))
+    edits.write_all(str(two), {"a": b"new"}, {"a": b"old"})
+    assert link.is_symlink()
 
 
 def test_temporary_files_of_killed_runs_are_removed(two: Path) -> None:
