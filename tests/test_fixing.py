@@ -1,8 +1,9 @@
 """Which fixes are applied, for trials in which it is known which fixes cause which regressions."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from random import Random
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -88,6 +89,50 @@ def test_few_trials_find_the_fixes_that_cause_regressions() -> None:
     assert len(trials.groups) <= 2, "all fixes, and all but these"
 
 
+def test_a_fix_that_another_fix_makes_possible_is_applied() -> None:
+    class Dependent(RegressionTrials):
+        def regressions(self, changed: Mapping[str, bytes], group: Sequence[Issue]) -> tuple[Regression, ...]:
+            return tuple(
+                Regression("too early", issue.package, issue.finding.subject)
+                for issue in group
+                if issue.finding.subject == "s1" and "s0" not in changed
+            )
+
+    result = fix(Dependent([issue(0, "p"), issue(1, "q")], {}))
+    assert ([issue.finding.subject for issue in result.applied], result.skipped) == (["s0", "s1"], ())
+
+
+def test_unsaved_files_are_part_of_the_result_and_refused_fixes_are_reported() -> None:
+    class Refusing(RegressionTrials):
+        def refused(self, changed: Mapping[str, bytes]) -> list[tuple[Issue, str]]:
+            return [(issue(2, "p"), f"refused after {len(changed)} changes")]
+
+    result = fix(Refusing([issue(0, "p"), issue(1, "p")], {"s1": "p"}), {"unsaved": b"text"})
+    assert result.changed == {"unsaved": b"text", "s0": b""}
+    assert [(issue.finding.subject, reason) for issue, reason in result.skipped] == [
+        ("s1", "s1"),
+        ("s2", "refused after 2 changes"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("package", "subject", "suspects"),
+    [
+        ("p", "s0", ["s0"]),  # the package and the subject
+        ("p", "other", ["s1"]),  # the package, by fixes that only remove
+        ("q", "s0", ["s0"]),  # the subject, if no fix of the package only removes
+        ("q", "other", ["s2", "s3"]),  # the package
+        ("r", "s3", ["s3"]),  # the subject
+        (None, None, []),
+    ],
+)
+def test_a_regression_is_ascribed_to_fixes_of_its_package_and_subject(
+    package: str | None, subject: str | None, suspects: list[str]
+) -> None:
+    group = [issue(0, "p", "text"), issue(1, "p", " \n"), issue(2, "q", "text"), issue(3, "q", "text")]
+    assert [issue.finding.subject for issue in Regression("", package, subject).suspects(group)] == suspects
+
+
 def test_a_skipped_fix_is_reported_at_its_line_on_disk() -> None:
     loader = SimpleNamespace(tree=MemoryTree({"f": "a\nb\nc\n"}))
     trials = FixTrials(loader, (), Selection((), frozenset(), {}, pedantic=False, ignores=()), ())  # type: ignore[arg-type]
@@ -102,23 +147,133 @@ def test_a_line_of_the_new_text_corresponds_to_a_line_of_the_old_text() -> None:
     assert line_before("", "a\n", 1) == 1
 
 
-def test_a_finding_whose_confidence_becomes_high_is_new() -> None:
-    text = manifest_text("p")
-    line, column = next((line, at + 1) for line, words in enumerate(text.splitlines(), 1) if (at := words.find("0.1.0")) >= 0)
-    place = Span("p/package.xml", line, column, line, column + len("0.1.0"))
+# --- with a workspace ----------------------------------------------------------------------------------------------
 
-    def version(package: Package) -> str:
-        return package.manifest.version if package.manifest else ""
 
-    def fixed(package: Package, _: Workspace) -> Iterator[Finding]:
-        if version(package) == "0.1.0":
-            yield Finding("m", place, "x", fix=Fix("raise", (Edit(place, "0.2.0"),)))
+def rule(name: str, replacements: Mapping[str, str | None], *, safe: bool = True, path: str = "", **finding: Any) -> Rule:
+    """Return a rule that finds dependencies, with fixes that replace their names; None if there is no fix.
 
-    def doubted(package: Package, _: Workspace) -> Iterator[Finding]:
-        yield Finding("n", place, "x", confidence=Confidence.MEDIUM if version(package) == "0.1.0" else Confidence.HIGH)
+    ``path`` is the file that the fixes edit if it is not that of the finding.
+    """
 
-    loader = Loader(MemoryTree({"p/package.xml": text, "p/CMakeLists.txt": "project(p)\n"}), ("",), TargetDistro("jazzy", "test"))
-    rules = (RULE._replace(package=fixed), RULE._replace(name="d", code="ROS998", package=doubted))
-    trials = FixTrials(loader, ("",), Selection(rules, frozenset(), {}, pedantic=False, ignores=()), rules)
-    [(skipped, reason)] = fix(trials).skipped
-    assert (skipped.rule.name, reason) == ("r", "it would cause a new finding: n")
+    def found(package: Package, _: Workspace) -> Iterator[Finding]:
+        for depend in package.manifest.depends if package.manifest else ():
+            if depend.name in replacements:
+                new, place = replacements[depend.name], depend.name_span
+                edit = Edit(place._replace(path=path or place.path), new or "")
+                change = None if new is None else Fix("t", (edit,), safe)
+                yield Finding(f"{name} of {depend.name}", place, depend.name, fix=change, **finding)
+
+    return RULE._replace(name=name, code=f"ROS-{name}", package=found)
+
+
+def trials_of(
+    *rules: Rule, roots: Sequence[str] = ("",), pedantic: bool = False, selected: Container[str] | None = None, **options: Any
+) -> FixTrials:
+    """Return trials in the packages p and q, which both depend on "aa"."""
+    files = {f"{name}/package.xml": manifest_text(name, ["<depend>aa</depend>"]) for name in "pq"}
+    loader = Loader(MemoryTree(files), ("",), TargetDistro("jazzy", "test"))
+    chosen = tuple(one for one in rules if selected is None or one.name in selected)
+    return FixTrials(loader, roots, Selection(chosen, frozenset(), {}, pedantic=pedantic, ignores=()), rules, **options)
+
+
+def outcome(trials: FixTrials) -> tuple[str, list[str]]:
+    """Return the dependencies of p and q after all fixes, and the distinct reasons for skipped fixes."""
+    result = fix(trials)
+    texts = [result.changed.get(f"{name}/package.xml", b"<depend>aa<").decode() for name in "pq"]
+    names = [text.partition("<depend>")[2].partition("<")[0] for text in texts]
+    return ",".join(names), list(dict.fromkeys(reason for _, reason in result.skipped))
+
+
+NEW = "it would cause a new finding: two of bb"
+
+
+def test_a_fix_that_resolves_its_finding_is_applied() -> None:
+    assert outcome(trials_of(rule("one", {"aa": "bb"}))) == ("bb,bb", [])
+    assert outcome(trials_of(rule("one", {"aa": "bb", "bb": "cc"}))) == ("cc,cc", [])
+
+
+def test_a_fix_that_does_not_resolve_its_finding_is_skipped() -> None:
+    assert outcome(trials_of(rule("one", {"aa": " aa"}))) == ("aa,aa", ["it does not resolve the finding"])
+
+
+def test_a_fix_that_causes_a_finding_is_skipped() -> None:
+    one, two = rule("one", {"aa": "bb"}), rule("two", {"bb": None})
+    assert outcome(trials_of(one, two)) == ("aa,aa", [NEW])
+    assert outcome(trials_of(one, two, selected={"one"})) == ("aa,aa", [NEW])
+
+
+def test_a_fix_may_cause_findings_of_low_confidence_or_of_rules_that_are_off() -> None:
+    one, off = rule("one", {"aa": "bb"}), rule("two", {"bb": None})._replace(default=False)
+    assert outcome(trials_of(one, rule("two", {"bb": None}, confidence=Confidence.MEDIUM))) == ("bb,bb", [])
+    assert outcome(trials_of(one, off)) == ("bb,bb", [])
+    assert outcome(trials_of(one, off, selected={"one"})) == ("bb,bb", [])
+
+
+def test_a_fix_may_cause_findings_that_fixes_of_the_next_round_resolve() -> None:
+    one, two = rule("one", {"aa": "bb"}), rule("two", {"bb": "cc"})
+    assert outcome(trials_of(one, two)) == ("cc,cc", [])
+    assert outcome(trials_of(one, two, selected={"one"})) == ("aa,aa", [NEW])
+    assert outcome(trials_of(one, two, rule("three", {"cc": None}))) == ("aa,aa", [NEW])
+    assert outcome(trials_of(one, rule("two", {"bb": " bb"}))) == ("aa,aa", [NEW])
+    overlapping = trials_of(one, two, rule("three", {"bb": "dd"}))
+    assert outcome(overlapping) == ("aa,aa", ["it would cause a new finding: three of bb"])
+
+
+def test_only_selected_rules_fix_their_findings() -> None:
+    one, two = rule("one", {"aa": "bb"}), rule("two", {"aa": "cc"})
+    assert outcome(trials_of(one, two, selected={"two"})) == ("cc,cc", [])
+    assert outcome(trials_of(one, two, only={"two"})) == ("cc,cc", [])
+    assert outcome(trials_of(one, two, only=())) == ("aa,aa", [])
+
+
+def test_unsafe_fixes_are_applied_only_on_request() -> None:
+    unsafe = rule("one", {"aa": "bb"}, safe=False)
+    assert outcome(trials_of(unsafe)) == ("aa,aa", [])
+    assert outcome(trials_of(unsafe, unsafe=True)) == ("bb,bb", [])
+
+
+def test_hidden_findings_are_not_fixed() -> None:
+    doubtful = rule("one", {"aa": "bb"}, confidence=Confidence.MEDIUM)
+    assert outcome(trials_of(doubtful)) == ("aa,aa", [])
+    assert outcome(trials_of(doubtful, pedantic=True)) == ("bb,bb", [])
+
+
+def test_only_files_below_the_requested_folders_are_changed() -> None:
+    assert outcome(trials_of(rule("one", {"aa": "bb"}), roots=("q",))) == ("aa,bb", [])
+    trials = trials_of(rule("one", {"aa": "bb"}, path="p/package.xml"), roots=("q",))
+    assert trials.fixable({}) == []
+    assert outcome(trials) == ("aa,aa", ["'p/package.xml' is outside the folders to check"])
+
+
+def test_the_patch_has_all_changed_files_in_order() -> None:
+    trials = trials_of(rule("one", {"aa": "bb"}))
+    patch = trials.patch(dict(reversed(fix(trials).changed.items()))).decode().splitlines()
+    changes = ("--- a/{}/package.xml", "+++ b/{}/package.xml", "-  <depend>aa</depend>", "+  <depend>bb</depend>")
+    assert [line for line in patch if line[0] in "+-"] == [line.format(name) for name in "pq" for line in changes]
+
+
+def test_a_fix_of_a_line_that_the_file_lacks_is_skipped() -> None:
+    trials = trials_of(rule("one", {"aa": "bb"}))
+    first, _ = trials.fixable({})
+    reason = "p/package.xml: changed since it was read; fix skipped"
+    assert trials.regressions({"p/package.xml": b""}, [first]) == (Regression(reason),)
+    assert trials.regressions({}, ()) == ()
+
+
+@pytest.mark.parametrize(
+    ("package", "subject", "safe", "is_new"),
+    [("p", "x", True, True), ("p", "x", False, False), ("p", "aa", False, True), ("q", "aa", True, False)],
+)
+def test_a_finding_whose_confidence_becomes_high_is_new_near_a_fix(package: str, subject: str, safe: bool, is_new: bool) -> None:
+    def doubted(place: Package, workspace: Workspace) -> Iterator[Finding]:
+        fixed = any(declared.name == "bb" for other in workspace.packages for declared in other.declared)
+        if place.name == package:
+            span = Span(f"{package}/package.xml", 1, 1, 1, 2)
+            yield Finding("n", span, subject, confidence=Confidence.HIGH if fixed else Confidence.MEDIUM)
+
+    rules = (rule("one", {"aa": "bb"}, safe=safe), RULE._replace(name="d", code="ROS998", package=doubted))
+    trials = trials_of(*rules, selected={"one"}, unsafe=True)
+    group = [issue for issue in trials.fixable({}) if issue.package == "p"]
+    reasons = [regression.reason for regression in trials.regressions({}, group)]
+    assert reasons == (["it would cause a new finding: n"] if is_new else [])
