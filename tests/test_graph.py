@@ -13,7 +13,7 @@ from random import Random
 import networkx as nx
 import pytest
 
-from ros_lint.analysis.graph.cycles import arcs_within, cheapest_cut, shortest_cycle
+from ros_lint.analysis.graph.cycles import Cycle, arcs_within, cheapest_cut, cycles, shortest_cycle
 from ros_lint.analysis.graph.dependency_graph import Edge, Graph, Reason, build, components, is_acyclic
 from ros_lint.analysis.graph.metrics import measure
 from ros_lint.base.graph_paths import paths
@@ -161,15 +161,87 @@ def without_edges(graph: Graph, cut: Iterable[Edge]) -> dict[str, set[str]]:
     return {name: {other for other in graph.arcs[name] if (name, other) not in gone} for name in graph.names}
 
 
-def test_test_dependencies_are_cut_first_then_those_of_run_time_then_single_tags() -> None:
-    tags = [("<depend>{0}</depend>", "<build_depend>{0}</build_depend>"), ("<build_depend>{0}</build_depend>",)]
-    tags += [("<exec_depend>{0}</exec_depend>",), ("<test_depend>{0}</test_depend>",)]
-    for costly, cheap in combinations(range(4), 2):
-        for names in permutations("ab"):
-            lines = {names[0]: tags[costly], names[1]: tags[cheap]}
-            other = dict(zip("ab", "ba", strict=True))
-            graph = build([package(name, [line.format(other[name]) for line in lines[name]]) for name in "ab"])
-            assert cheapest_cut(graph, graph.arcs) == ((names[1], names[0]),)
+COSTS = [  # from expensive to cheap
+    ("<group_depend>with_{0}</group_depend>",),
+    ("<depend>{0}</depend>", "<build_depend>{0}</build_depend>"),
+    ("<build_depend>{0}</build_depend>",),
+    ("<exec_depend>{0}</exec_depend>", "<test_depend>{0}</test_depend>"),
+    ("<test_depend>{0}</test_depend>",),
+    ('<depend condition="$WHO_KNOWS == 1">{0}</depend>',),
+]
+
+
+@pytest.mark.parametrize(("costly", "cheap"), list(combinations(COSTS, 2)))
+def test_the_cheapest_edge_of_a_cycle_is_cut(costly: tuple[str, ...], cheap: tuple[str, ...]) -> None:
+    for names in permutations("ab"):
+        lines = dict(zip(names, (costly, cheap), strict=True))
+        other = dict(zip("ab", "ba", strict=True))
+        member = "<member_of_group>with_{0}</member_of_group>"
+        graph = build(
+            [package(name, [*(line.format(other[name]) for line in lines[name]), member.format(name)]) for name in "ab"]
+        )
+        assert cheapest_cut(graph, graph.arcs) == ((names[1], names[0]),)
+
+
+def rings(count: int) -> tuple[Graph, list[Edge]]:
+    """Return a graph of rings with one common node, and the test dependencies: one for each ring."""
+    tests: list[Edge] = []
+    needs: dict[str, dict[str, list[Reason]]] = {"n": {}}
+    for ring in range(count):
+        names = ["n", *(f"r{ring}{number:02}" for number in range(13 // count + 1)), "n"]
+        tests.append((names[2], names[3]))
+        for name, other in pairwise(names):
+            reason = Reason("test_depend", ("test",), HERE) if (name, other) in tests else Reason("depend", ("build",), HERE)
+            needs.setdefault(name, {})[other] = [reason]
+    return Graph(dict.fromkeys(needs, ()), needs), tests
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_the_cheapest_of_the_smallest_cuts_of_a_large_component_is_found(count: int) -> None:
+    graph, tests = rings(count)
+    assert len(graph.names) > 12
+    assert list(cheapest_cut(graph, graph.arcs)) == tests
+
+
+def test_a_cut_of_one_or_two_edges_of_a_large_component_is_found() -> None:
+    sizes = set()
+    for seed in range(20):
+        random = Random(seed)
+        names = [f"n{number:02}" for number in range(13)]
+        edges = {name: {names[index - 1]} for index, name in enumerate(names)}
+        for _ in range(3):
+            edges[random.choice(names)].add(random.choice(names))
+        graph = graph_of({name: others - {name} for name, others in edges.items()})
+        cut = cheapest_cut(graph, graph.arcs)
+        pairs = (found for size in (1, 2) for found in combinations(graph.edges, size))
+        smallest = next((len(found) for found in pairs if is_acyclic(without_edges(graph, found))), len(cut))
+        assert len(cut) == smallest
+        sizes.add(smallest)
+    assert sizes >= {1, 2}
+
+
+def test_certain_cycles_come_before_possible_ones() -> None:
+    maybe = '<depend condition="$WHO_KNOWS == 1">{0}</depend>'
+    lines = {"a": maybe.format("b"), "b": "<depend>a</depend>", "c": "<depend>d</depend>", "d": "<exec_depend>c</exec_depend>"}
+    graph = build([package(name, [line]) for name, line in lines.items()])
+    assert list(cycles(graph)) == [
+        Cycle(("c", "d"), ("c", "d"), (("d", "c"),), certain=True),
+        Cycle(("a", "b"), ("a", "b"), (("a", "b"),), certain=False),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("role", "categories"),
+    [
+        (Role.TOOL, ("build",)),
+        (Role.EXPORT, ("run",)),
+        (Role.TEST, ("test",)),
+        (Role.BUILD | Role.EXEC | Role.TEST, ("build", "run", "test")),
+    ],
+)
+def test_dependencies_of_colcon_are_read_for_their_phases(role: Role, categories: tuple[str, ...]) -> None:
+    graph = build([package("a", extra=[ColconDepend("b", role, Span("src/a/colcon.pkg", 2, 5, 2, 6))]), package("b")])
+    assert [(reason.tag, reason.categories) for reason in graph.reasons(("a", "b"))] == [("colcon.pkg", categories)]
 
 
 def test_reasons_are_the_elements_that_make_an_edge() -> None:
@@ -230,6 +302,20 @@ def test_a_way_from_a_package_to_itself_is_a_cycle() -> None:
     assert paths(graph.needs.__getitem__, "a", "a", 9).paths == (("a", "b", "a"), ("a", "b", "c", "a"))
 
 
+def test_the_cycles_through_a_package_are_all_cycles_shortest_first() -> None:
+    for seed in range(100):
+        graph = random_graph(Random(seed), 6)
+        for name in graph.names:
+            found = paths(graph.needs.__getitem__, name, name, 1000)
+            wanted = [
+                (*cycle[cycle.index(name) :], *cycle[: cycle.index(name)], name)
+                for cycle in nx.simple_cycles(digraph(graph))
+                if name in cycle
+            ]
+            assert list(found.paths) == sorted(map(tuple, wanted), key=lambda path: (len(path), path))
+            assert not found.more
+
+
 def test_paths_end_in_a_knot_of_cycles() -> None:
     names = [f"n{number:02}" for number in range(40)]
     graph = graph_of({name: [other for other in names if other != name] for name in names})
@@ -271,6 +357,32 @@ def test_metrics_take_a_cycle_for_one_package() -> None:
         "top": (0, 2, 2, 0),
     }
     assert {name: m.redundant for name, m in found.items() if m.redundant} == {"top": (("top", "a", "low"),)}
+
+
+def test_metrics_are_those_of_the_components_of_networkx() -> None:
+    for seed in range(150):
+        graph = random_graph(Random(seed), 10)
+        theirs = digraph(graph)
+        condensed = nx.condensation(theirs)
+        component = condensed.graph["mapping"]
+        for name, metrics in measure(graph).items():
+            below = condensed.subgraph({component[name], *nx.descendants(condensed, component[name])})
+            assert metrics.needed_by == len(set(theirs.predecessors(name)) - {name})
+            assert metrics.needs == len(set(theirs.successors(name)) - {name})
+            assert metrics.reach == len(nx.ancestors(theirs, name))
+            assert metrics.depth == nx.dag_longest_path_length(below)
+            indirect = {}
+            for dependency in graph.needs[name]:
+                inside = {component[name], component[dependency]}
+                lengths = [
+                    nx.shortest_path_length(theirs, third, dependency) + 1
+                    for third in graph.needs[name]
+                    if component[third] not in inside and nx.has_path(theirs, third, dependency)
+                ]
+                if lengths and len(inside) == 2:
+                    indirect[dependency] = min(lengths)
+            assert {way[-1]: len(way) - 1 for way in metrics.redundant} == indirect
+            assert all(way[0] == name and all(theirs.has_edge(*edge) for edge in pairwise(way)) for way in metrics.redundant)
 
 
 def test_a_graph_without_a_cycle_waits_for_no_library() -> None:
