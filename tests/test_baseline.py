@@ -88,6 +88,32 @@ def test_findings_of_rules_that_did_not_run_are_not_gone(tmp_path: Path) -> None
     assert known.hide_known(report(ran=("two",)), "k", (".",)).warnings
 
 
+def test_the_findings_of_another_report_can_be_hidden() -> None:
+    old, new = issue("one", "a", "x"), issue("two", "b", "y", sure=False)
+    known = baseline.of(report(old, old))
+    left = known.hide_known(report(old, old, new, hidden=(HiddenCount(UNSURE, 1),)), "main", ("src",), where="already in")
+    assert (left.issues, left.warnings) == ((new,), ())
+    assert left.hidden == (HiddenCount(UNSURE, 1), HiddenCount("already in main", 2))
+    warned = known.hide_known(report()._replace(warnings=("first",)), "main", ())
+    assert warned.warnings == ("first", "2 findings in main no longer occur; --write-baseline removes them")
+    assert known.hide_known(report(), "main", ("src",)).warnings == ()
+
+
+def test_findings_of_low_confidence_are_gone_if_all_are_shown(tmp_path: Path) -> None:
+    known = kept(tmp_path, report(issue("one", "a", "x", sure=False)))
+    hidden = (HiddenCount("suppressed by comments", 1),)
+    assert known.hide_known(report(hidden=hidden), "k", (".",)).warnings
+    assert not known.hide_known(report(hidden=(*hidden, HiddenCount(UNSURE, 1))), "k", (".",)).warnings
+
+
+def test_a_baseline_that_cannot_be_read_or_written_is_reported_with_its_path(tmp_path: Path) -> None:
+    place = str(tmp_path / "nowhere" / "known.json")
+    with pytest.raises(BaselineError, match="known.json: No such file or directory; --write-baseline creates the file$"):
+        baseline.read(place)
+    with pytest.raises(BaselineError, match="known.json: cannot be written: No such file or directory; nothing was changed$"):
+        baseline.write(place, report(), (".",))
+
+
 def test_the_file_has_a_line_per_key_and_no_places(tmp_path: Path) -> None:
     moved = issue("two", "b", "ü")._replace(finding=Finding("other words", Span("z", 9, 9, 9, 9), "ü"))
     text = baseline.text(report(issue("two", "b", "ü"), issue("one", "a", "x"), issue("one", "a", "x", sure=False)), ("src",))
