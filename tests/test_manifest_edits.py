@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from collections import Counter
 from collections.abc import Callable, Sequence
+from random import Random
 
 import pytest
 from hypothesis import given, settings
@@ -204,6 +206,52 @@ def test_sort_orders_the_children_by_the_schema(text: str) -> None:
             "b",
             "  <depend>a</depend> <!-- on\n  two lines -->\n  <depend>b</depend>",
         ),
+        ("    <depend>a</depend>", "depend", "b", "    <depend>a</depend>\n    <depend>b</depend>"),
+        (  # the order of tags, not of the file, chooses the place
+            "  <exec_depend>e</exec_depend>\n  <build_depend>c</build_depend>",
+            "build_export_depend",
+            "b",
+            "  <exec_depend>e</exec_depend>\n  <build_depend>c</build_depend>\n  <build_export_depend>b</build_export_depend>",
+        ),
+        (  # most kinds are not apart
+            "  <depend>a</depend>\n\n  <build_depend>c</build_depend>\n  <exec_depend>e</exec_depend>",
+            "test_depend",
+            "b",
+            "  <depend>a</depend>\n\n  <build_depend>c</build_depend>\n  <exec_depend>e</exec_depend>\n"
+            "  <test_depend>b</test_depend>",
+        ),
+        (  # the only kind is apart from the rest
+            "\n  <!-- what it uses -->\n  <depend>a</depend> <!-- why -->\n\n  <export/>",
+            "test_depend",
+            "b",
+            "\n  <!-- what it uses -->\n  <depend>a</depend> <!-- why -->\n\n  <test_depend>b</test_depend>\n\n  <export/>",
+        ),
+        (  # a comment at the end of a line belongs to its line
+            "  <author>x</author> <!-- why -->\n  <!-- run -->\n  <exec_depend>a</exec_depend>",
+            "depend",
+            "b",
+            "  <author>x</author> <!-- why -->\n  <depend>b</depend>\n  <!-- run -->\n  <exec_depend>a</exec_depend>",
+        ),
+        (
+            "  <author>x</author> <!-- why -->\n  <exec_depend>a</exec_depend>",
+            "depend",
+            "b",
+            "  <author>x</author> <!-- why -->\n  <depend>b</depend>\n  <exec_depend>a</exec_depend>",
+        ),
+        (  # every kind that can be compared is sorted
+            "  <depend>a</depend>\n  <depend>c</depend>\n  <exec_depend>m</exec_depend>",
+            "exec_depend",
+            "b",
+            "  <depend>a</depend>\n  <depend>c</depend>\n  <exec_depend>b</exec_depend>\n  <exec_depend>m</exec_depend>",
+        ),
+        (  # one of them is not
+            "  <depend>a</depend>\n  <depend>c</depend>\n  <test_depend>z</test_depend>\n  <test_depend>y</test_depend>\n"
+            "  <exec_depend>m</exec_depend>",
+            "exec_depend",
+            "b",
+            "  <depend>a</depend>\n  <depend>c</depend>\n  <test_depend>z</test_depend>\n  <test_depend>y</test_depend>\n"
+            "  <exec_depend>m</exec_depend>\n  <exec_depend>b</exec_depend>",
+        ),
     ],
 )
 def test_add_inserts_at_the_place_of_its_kind(body: str, tag: str, name: str, expected: str) -> None:
@@ -221,6 +269,16 @@ def test_add_inserts_at_the_place_of_its_kind(body: str, tag: str, name: str, ex
         ),
         ("  <export/>", "  <export>\n    <build_type>cmake</build_type>\n  </export>"),
         ("  <export><a/></export>", "  <export><build_type>cmake</build_type><a/></export>"),
+        ("  <export></export>", "  <export>\n    <build_type>cmake</build_type>\n  </export>"),
+        (
+            "\n  <url>u</url> <!-- why -->\n",
+            "\n  <url>u</url> <!-- why -->\n\n  <export>\n    <build_type>cmake</build_type>\n  </export>\n",
+        ),
+        (
+            "  <depend>a</depend>\n\n  <exec_depend>b</exec_depend>",
+            "  <depend>a</depend>\n\n  <exec_depend>b</exec_depend>\n\n"
+            "  <export>\n    <build_type>cmake</build_type>\n  </export>",
+        ),
         (
             "  <export>\n    <!-- none -->\n  </export>",
             "  <export>\n    <build_type>cmake</build_type>\n    <!-- none -->\n  </export>",
@@ -232,9 +290,39 @@ def test_set_build_type_adds_the_export(body: str, expected: str) -> None:
     assert apply(text, [manifest_edits.set_build_type(read(text), "cmake")]) == manifest_of(expected)
 
 
+def test_set_build_type_follows_the_indentation_of_the_file() -> None:
+    head = "\n".join(f"\t{line}" for line in HEAD)
+    text = manifest_of("\t<export>\n\t\t<a/>\n\t</export>", head)
+    edited = manifest_of("\t<export>\n\t\t<build_type>a&amp;b</build_type>\n\t\t<a/>\n\t</export>", head)
+    assert apply(text, [manifest_edits.set_build_type(read(text), "a&b")]) == edited
+    text = manifest_of("\t<author>a</author>", head)
+    edited = manifest_of("\t<author>a</author>\n\t<export>\n\t\t<build_type>cmake</build_type>\n\t</export>", head)
+    assert apply(text, [manifest_edits.set_build_type(read(text), "cmake")]) == edited
+    text = "<package></package>"
+    edited = "<package>\n  <export>\n    <build_type>cmake</build_type>\n  </export>\n</package>"
+    assert apply(text, [manifest_edits.set_build_type(read(text), "cmake")]) == edited
+
+
 @pytest.mark.parametrize(
     ("body", "changed", "expected"),
     [
+        (  # versions and conditions are kept
+            "  <depend>a</depend>\n  <test_depend>b</test_depend>\n"
+            '  <test_depend version_gte="1" condition="$A == \'1\' and $B &lt; c">x</test_depend>',
+            "x",
+            '  <depend>a</depend>\n  <depend version_gte="1" condition="$A == \'1\' and $B &lt; c">x</depend>\n'
+            "  <test_depend>b</test_depend>",
+        ),
+        (  # another spelling of the element
+            "  <depend>a</depend>\n  <test_depend>b</test_depend>\n  <test_depend> x</test_depend>",
+            "x",
+            "  <depend>a</depend>\n  <test_depend>b</test_depend>\n  <depend> x</depend>",
+        ),
+        (  # it is not alone on its line
+            "  <depend>a</depend>\n  <test_depend>b</test_depend> <test_depend>x</test_depend>",
+            "x",
+            "  <depend>a</depend>\n  <test_depend>b</test_depend> <depend>x</depend>",
+        ),
         (  # a kind stays together, and sorted
             "  <test_depend>a</test_depend>\n  <test_depend>x</test_depend>\n\n  <depend>b</depend>\n  <depend>z</depend>",
             "x",
@@ -356,6 +444,27 @@ def test_remove_takes_out_the_line_and_separating_blank_lines(body: str, expecte
 def test_sort_moves_as_few_elements_as_possible(body: str, expected: str | None) -> None:
     text = manifest_of(body)
     assert apply(text, manifest_edits.sort(read(text))) == (text if expected is None else manifest_of(expected))
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_sort_moves_no_more_elements_than_needed(seed: int) -> None:
+    """The elements that stay are a longest sequence of elements in the right order."""
+    tags = ["author", "url", "depend", "member_of_group", "group_depend", "test_depend", "maintainer", "license"]
+    random = Random(seed)
+    chosen = [random.choice(tags) for _ in range(random.randint(1, 9))]
+    text = "<package>\n" + "".join(f"  <{tag}>n{number}</{tag}>\n" for number, tag in enumerate(chosen)) + "</package>\n"
+    changes = manifest_edits.sort(read(text))
+    ends: list[int] = []  # the lowest last rank of the sequences of each length
+    for rank in map(manifest_edits.schema_rank, chosen):
+        at = bisect_right(ends, rank)
+        ends[at : at + 1] = [rank]
+    assert sum(bool(change.text) for change in changes) == len(chosen) - len(ends)
+    edited = apply(text, changes)
+    assert sorted(edited.splitlines()) == sorted(text.splitlines())
+    moved = {change.text for change in changes}
+    assert [line for line in edited.splitlines() if f"{line}\n" not in moved] == [
+        line for line in text.splitlines() if f"{line}\n" not in moved
+    ]
 
 
 def test_names_are_escaped() -> None:
