@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
+from ros_lint.base.text import Span
+from ros_lint.facts.build import NOTHING_BUILT, BuildScript, InstalledFile
+from ros_lint.facts.sources import Mention
 from ros_lint.knowledge import Knowledge
+from ros_lint.knowledge.providers import Suggestion, importable_modules
 from ros_lint.knowledge.world import Member
 from tests.worlds import member, world, write_prefix
 
@@ -199,3 +204,113 @@ def test_only_names_that_resolve_are_suggested() -> None:
             for name in result.suggest(wrong):
                 assert result.is_package(name) or result.knowledge.resolves(name)
     assert world().suggest("ament_cmake_lint_copyright") == ("ament_cmake_copyright",)
+
+
+# --- modules of a package ------------------------------------------------------------------------------------------
+
+
+def script(packages: Sequence[str] = (), installs: Sequence[str] = (), found: Sequence[str] = ()) -> BuildScript:
+    """Return the build script of a package, given its Python packages, the files it installs and what it finds with CMake."""
+    place = Span("robot/CMakeLists.txt", 1, 1, 1, 2)
+    products = NOTHING_BUILT.products._replace(
+        python_packages=tuple(packages), installs=tuple(InstalledFile(path, path, False, False, place) for path in installs)
+    )
+    mentions = tuple(Mention(name, "cmake", place) for name in found)
+    return NOTHING_BUILT._replace(products=products, mentions=mentions)
+
+
+SITE = "lib/python3.12/site-packages"
+
+
+@pytest.mark.parametrize(
+    ("packages", "installs", "files", "modules"),
+    [
+        (["robot", "robot.parts"], [], ["robot/__init__.py", "robot/parts/__init__.py"], ("robot",)),
+        (["robot"], [], [], ("robot",)),
+        (["robot"], [], ["setup.py", "robots/a.txt"], ("robot",)),
+        # a folder without Python files
+        (["robot", "frames"], [], ["robot/a.py", "frames/a.yaml"], ("robot",)),
+        (["robot", "frames"], [], ["robot/a.py", "frames/a.yaml", "frames/b.py", "frames/c.yaml"], ("robot", "frames")),
+        # a folder with a usual name for data
+        (["robot", "launch"], [], ["robot/a.py", "launch/a.launch.py"], ("robot",)),
+        (["robot", "launch"], [], ["robot/a.py", "launch/__init__.py"], ("robot", "launch")),
+        (["robot", "launch"], [], ["robot/a.py", "launch/sub/__init__.py"], ("robot",)),
+        # the folder src
+        (["robot", "frames"], [], ["src/robot/a.py", "src/frames/a.yaml"], ("robot",)),
+        # files that CMake installs
+        ([], [f"{SITE}/robot/a.py", f"{SITE}/robot/b.py", f"{SITE}/single.py"], ["a.py"], ("robot", "single")),
+        ([], [f"{SITE}/robot/a.so", f"{SITE}/__init__.py", "lib/robot/a.py"], ["a.py"], None),
+        (["robot"], [f"{SITE}/extra/a.py"], ["robot/a.py"], ("robot", "extra")),
+    ],
+)
+def test_the_modules_of_a_package_are_those_that_it_installs(
+    packages: list[str], installs: list[str], files: list[str], modules: tuple[str, ...] | None
+) -> None:
+    assert importable_modules(script(packages, installs), files) == modules
+
+
+@pytest.mark.parametrize(
+    ("files", "found", "is_certain"),
+    [
+        (["CMakeLists.txt", "src/a.cpp"], ["rclcpp"], True),
+        (["launch/a.launch.py", "test/a.py", "test_a.py"], [], True),
+        (["scripts/a.py"], [], False),
+        (["msg/A.msg"], [], False),
+        (["src/a.pyx"], [], False),
+        (["src/a.cpp"], ["pybind11_vendor"], False),
+        (["src/a.cpp"], ["rclcpp", "Python3"], False),
+    ],
+)
+def test_a_package_without_modules_is_certain_if_nothing_can_become_one(
+    files: list[str], found: list[str], is_certain: bool
+) -> None:
+    assert importable_modules(script(found=found), files) == (() if is_certain else None)
+
+
+@pytest.mark.parametrize(
+    ("modules", "module", "names"),
+    [
+        (("std_msgs",), "std_msgs", ("std_msgs", "mine")),  # the released package certainly has the module
+        (("rclcpp",), "rclcpp", ("mine",)),  # the released package certainly lacks it
+        (("frames",), "frames.a", ("mine",)),
+        (("mine", "parts"), "mine", ("mine",)),
+        (("other", "parts"), "other", ("mine",)),
+    ],
+)
+def test_a_module_of_the_workspace_may_also_be_that_of_a_released_package(
+    modules: tuple[str, ...], module: str, names: tuple[str, ...]
+) -> None:
+    members = [Member("mine", "1.0.0", {}, (), modules)]
+    members += [Member("other", "1.0.0", {}, (), ())] if "other" in modules else []
+    assert world(*members).by_import(module).names == names
+
+
+# --- similar names -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("wrong", "python", "expected"),
+    [
+        ("std_msgs/msg/String", False, Suggestion("std_msgs", "spelling")),
+        ("rclpy.qos", False, Suggestion("rclpy", "spelling")),
+        ("ros-humble-tf2-ros", False, Suggestion("tf2_ros", "system")),
+        ("Eigen3", False, Suggestion("eigen", "cmake")),
+        ("urdfdom-headers", False, Suggestion("urdfdom_headers", "spelling")),
+        ("Std_Msgs", False, Suggestion("std_msgs", "spelling")),
+        ("python-yaml", False, Suggestion("python3-yaml", "spelling")),
+        ("numpy", True, Suggestion("python3-numpy", "spelling")),
+        ("cv2", True, Suggestion("python3-opencv", "python")),
+        ("nlohmann-json3-dev", False, Suggestion("nlohmann-json-dev", "system")),
+        ("nav2_utils", False, Suggestion("nav2_util", "slip")),
+        ("python3-numpyy", True, Suggestion("python3-numpy", "slip")),
+        ("pyserial", True, Suggestion("python3-serial", "spelling")),
+    ],
+)
+def test_a_correction_names_the_kind_of_the_mistake(wrong: str, python: bool, expected: Suggestion) -> None:
+    assert world().meant(wrong, python=python) == expected
+
+
+def test_similar_names_begin_with_the_intended_one() -> None:
+    assert world().suggest("nav2_utils")[0] == "nav2_util"
+    assert len(world().suggest("nav2_uti")) <= 3
+    assert len(set(world().suggest("rviz_comon"))) == len(world().suggest("rviz_comon"))
