@@ -211,6 +211,27 @@ def test_the_verb_of_colcon_checks_the_selected_packages(workspace: Path, verb: 
     assert process.returncode == 0, process.stdout
 
 
+def test_event_handlers_receive_the_check_as_a_job(workspace: Path, verb: dict[str, str]) -> None:
+    command = ("ros-lint", "--packages-select", "driver")
+    process = colcon(*command, folder=workspace, variables=verb)
+    assert (process.returncode, process.stdout.partition("\n")[0]) == (1, "Starting >>> ros-lint")
+    assert "Failed   <<< ros-lint [" in process.stderr
+    process = colcon(*command, "--event-handlers", "console_start_end-", folder=workspace, variables=verb)
+    assert (process.returncode, process.stdout.partition(":")[0]) == (1, "driver")
+    assert "Failed" not in process.stderr
+    log = (workspace / "log" / "latest_ros-lint" / "logger_all.log").read_text("utf-8")
+    assert "Invoking command in" in log
+
+
+def test_colcon_finds_only_the_integrations_in_a_clone() -> None:
+    """A clone of the repository in a workspace adds no package of the fixtures, which have cycles and duplicate names."""
+    command = ["git", "ls-files", "--", "*package.xml", "*setup.py", "*CMakeLists.txt"]
+    files = subprocess.run(command, cwd=FOLDER.parent, capture_output=True, text=True, check=True).stdout.split()
+    folders = {path.partition("/")[0] for path in files}
+    assert folders == {"fixtures", "integrations"}
+    assert (FOLDER.parent / "fixtures" / "COLCON_IGNORE").exists()
+
+
 def test_the_versions_are_that_of_ros_lint() -> None:
     manifests = [FOLDER / name / "package.xml" for name in ("ament_ros_lint", "ament_cmake_ros_lint")]
     assert {ElementTree.parse(path).findtext("version") for path in manifests} == {__version__}
