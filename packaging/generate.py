@@ -1,6 +1,7 @@
-"""Write the man page and the completion scripts: ``python packaging/generate.py``.
+"""Write the man page, the completion scripts and the conda recipe: ``python packaging/generate.py``.
 
-Both are made from the parsers of the command line, so they name all commands and options.
+The man page and the scripts are made from the parsers of the command line, so they name all commands and options. The recipe
+has the description, the dependencies and the commands of ``pyproject.toml``.
 """
 
 from __future__ import annotations
@@ -8,13 +9,22 @@ from __future__ import annotations
 import argparse
 import re
 from pathlib import Path
+from typing import Any
+
+import yaml
 
 from ros_lint import __version__
 from ros_lint.cli.completions import actions, script
 from ros_lint.cli.options import COMMANDS
 
+try:
+    import tomllib
+except ModuleNotFoundError:  # Python 3.10
+    import tomli as tomllib
+
 ROOT = Path(__file__).parent.parent
 MAN_PAGE = Path("docs/ros-lint.1")
+CONDA_RECIPE = Path("packaging/conda/recipe.yaml")
 COMPLETIONS = {
     "bash": Path("packaging/completions/ros-lint.bash"),
     "zsh": Path("packaging/completions/_ros-lint"),
@@ -30,7 +40,43 @@ def main() -> None:
 
 def files() -> dict[Path, str]:
     """Return the generated files by their path in the repository."""
-    return {MAN_PAGE: _man_page(), **{path: script(shell) for shell, path in COMPLETIONS.items()}}
+    return {MAN_PAGE: _man_page(), CONDA_RECIPE: _conda_recipe(), **{path: script(shell) for shell, path in COMPLETIONS.items()}}
+
+
+def _conda_recipe() -> str:
+    """Return the recipe of a conda package for all platforms, in version 1 of the format."""
+    pyproject = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    project = pyproject["project"]
+    python = f"python {project['requires-python']}"
+    recipe: dict[str, Any] = {
+        "package": {"name": project["name"], "version": __version__},
+        "source": {"path": "../.."},
+        "build": {
+            "number": 0,
+            "noarch": "python",
+            "script": "${{ PYTHON }} -m pip install . --no-deps --no-build-isolation -vv",
+            "python": {"entry_points": [f"{name} = {place}" for name, place in project["scripts"].items()]},
+        },
+        "requirements": {
+            "host": [python, "pip", *map(_conda_dependency, pyproject["build-system"]["requires"])],
+            "run": [python, *map(_conda_dependency, project["dependencies"])],
+        },
+        "tests": [
+            {"python": {"imports": ["ros_lint", "ros_lint_rules"], "pip_check": True}},
+            {"script": ["ros-lint --version"]},
+        ],
+        "about": {"summary": project["description"], "license": project["license"], "license_file": project["license-files"]},
+    }
+    return yaml.safe_dump(recipe, sort_keys=False, width=130)
+
+
+def _conda_dependency(requirement: str) -> str:
+    """Return a dependency as conda writes it: ``tomli>=2; python_version < '3.11'`` becomes ``tomli >=2``.
+
+    The condition is left out, because a package for all platforms and versions of Python cannot have one.
+    """
+    name, relation = re.match(r"([\w.-]+)([^;]*)", requirement).groups()
+    return f"{name} {relation.strip()}"
 
 
 def _man_page() -> str:
