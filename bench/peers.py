@@ -63,7 +63,7 @@ def table(judged: str, workspace: str) -> str:
     title, verdicts = read(judged)
     total = sum(verdict == "missing" for verdict in verdicts.values())
     lines = [
-        f"### {title}",
+        f"## {title}",
         "",
         f"{total} dependencies are missing.",
         "",

@@ -383,4 +383,4 @@ def markdown(doc: str) -> str:
     """Return a docstring as Markdown: roles and double backquotes become code, other angle brackets are escaped."""
     text = re.sub(r":\w+:`(?:~?ros_lint\.(?:\w+\.)*)?([\w.]+)`", r"`\1`", doc)
     text = re.sub(r"``(.+?)``", r"`\1`", text, flags=re.DOTALL)
-    return "".join(part if part.startswith("`") else part.replace("<", "\\<") for part in re.split(r"(`[^`]*`)", text))
+    return "".join(part if part.startswith("`") else part.replace("<", "&lt;") for part in re.split(r"(`[^`]*`)", text))

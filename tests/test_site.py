@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from html.parser import HTMLParser
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -34,3 +35,35 @@ def test_the_site_builds_without_warnings(tmp_path: Path) -> None:
     process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert (process.returncode, process.stderr) == (0, "")
     assert (tmp_path / "site" / "rules" / "undeclared-dependency" / "index.html").exists()
+
+
+class _Tags(HTMLParser):
+    """The names of the elements of a page."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.names: set[str] = set()
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        self.names.add(tag)
+
+
+def elements(text: str) -> set[str]:
+    tags = _Tags()
+    tags.feed(text)
+    return tags.names
+
+
+@pytest.mark.skipif(not find_spec("markdown"), reason="mkdocs is not installed")
+def test_tags_of_package_xml_are_escaped() -> None:
+    """Browsers hide an unescaped tag, such as <package> in a path."""
+    from markdown import markdown
+
+    html = {"a", "br", "code", "details", "em", "h1", "h2", "h3", "h4", "hr", "img", "li", "ol", "p", "pre", "strong", "summary"}
+    html |= {"table", "thead", "tbody", "tr", "th", "td", "ul"}
+    found = {
+        path.name: names
+        for path in (ROOT / "docs").rglob("*.md")
+        if (names := elements(markdown(path.read_text("utf-8"), extensions=["tables", "fenced_code"])) - html)
+    }
+    assert found == {}

@@ -5,8 +5,8 @@ A package that generates messages, services or actions but is no member of the g
 
 ## Why it matters
 
-CMake stops: "Packages installing interfaces must include '<member_of_group>rosidl_interface_packages</member_of_group>' in their
-package.xml".
+CMake stops, because packages that install interfaces must include
+`<member_of_group>rosidl_interface_packages</member_of_group>` in their package.xml.
 
 ## How to fix it
 

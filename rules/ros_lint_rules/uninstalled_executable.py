@@ -221,7 +221,7 @@ def _destination_fix(package: Package, span: Span, targets: tuple[BuildTarget, .
 RULE = Rule(
     name="uninstalled-executable",
     code="ROS403",
-    summary="nodes are installed to lib/<package>",
+    summary="nodes are installed where ros2 run and launch find them",
     severity=Severity.ERROR,
     since="0.1",
     doc=__doc__,
