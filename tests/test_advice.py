@@ -58,6 +58,14 @@ def test_a_name_resolves_where_it_is_stated_or_everywhere(name: str, stated: str
         assert fix.safe is (not remark)
 
 
+def test_a_fix_is_unsafe_if_the_repository_builds_for_a_distribution_without_the_name() -> None:
+    tree = MemoryTree({"robot/package.xml": manifest_text("robot"), ".gitlab-ci.yml": "image: ros:jazzy\n"})
+    found = Loader(tree, ("",), TargetDistro("humble", "test")).load()
+    assert availability_remark(found, "gazebo_ros") == " (not available in jazzy, for which this repository builds, too)"
+    fixes = [naming_fix(found, name, "declare it", EDIT) for name in ("gazebo_ros", "rclcpp")]
+    assert [fix and fix.safe for fix in fixes] == [False, True]
+
+
 def test_a_tag_for_other_distributions_has_a_condition_and_no_fix() -> None:
     for told in (True, False):
         found = workspace("jazzy", told=told)

@@ -88,11 +88,11 @@ def test_files_of_the_roots_are_read() -> None:
     assert named({"src/arm/Dockerfile": "FROM ros:humble\n"}, ("src/arm",)) == [("humble", "src/arm/Dockerfile", 1)]
 
 
-def test_nothing_is_read_if_the_user_chose_a_distribution() -> None:
+def test_the_named_distributions_are_known_even_if_the_user_chose_one() -> None:
     tree = MemoryTree({"arm/package.xml": manifest_text("arm"), "Dockerfile": "FROM ros:humble\nRUN ls /opt/ros/foxy\n"})
     places = (NamedDistro("humble", "Dockerfile", 1), NamedDistro("foxy", "Dockerfile", 2, indexed=False))
     assert Loader(tree, ("",), TargetDistro("lyrical", "newest LTS", explicit=False)).load().named_distros == places
-    assert Loader(tree, ("",), TargetDistro("lyrical", "--distro")).load().named_distros == ()
+    assert Loader(tree, ("",), TargetDistro("lyrical", "--distro")).load().named_distros == places
 
 
 @pytest.mark.parametrize(

@@ -68,7 +68,7 @@ def check(
         packages=checked_packages,
         context_packages=len(paths) - checked_packages,
         target=workspaces[0].target,
-        named_distros=workspaces[0].named_distros,
+        named_distros=() if workspaces[0].target.explicit else workspaces[0].named_distros,
         data_date=context.data_date,
         version=__version__,
         hidden=hidden,

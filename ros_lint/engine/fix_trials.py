@@ -215,17 +215,18 @@ def _new_findings(before: Trial, after: Trial, group: Sequence[Issue]) -> list[I
     """Return the findings that the fixes of ``group`` cause in any distribution.
 
     Only findings with high confidence, of rules that are on by default, count. A finding also counts if its confidence becomes
-    high, because it was not shown before: any finding in a package with a safe fix, or one about the subject of a fix.
+    high, because it was not shown before: any finding in a package with a safe fix, or one about the subject of a fix in any
+    package.
     """
     earlier, count = before.identity_counts(), after.identity_counts()
     earlier_serious, serious = before.serious_counts(), after.serious_counts()
     packages = {issue.package for issue in group if issue.finding.fix and issue.finding.fix.safe}
-    fixed = {(issue.package, issue.finding.subject) for issue in group}
+    subjects = {issue.finding.subject for issue in group}
 
     def is_new(issue: Issue, name: DistroIdentity) -> bool:
         if count[name] > earlier[name]:
             return True
-        is_near = issue.package in packages or (issue.package, issue.finding.subject) in fixed
+        is_near = issue.package in packages or issue.finding.subject in subjects
         return is_near and serious[name] > earlier_serious[name]
 
     return [issue for issue in after.serious if any(is_new(issue, name) for name in after.identities(issue))]

@@ -270,10 +270,9 @@ class Loader:
         return self._roots, discover(tree, self._roots, target.context)
 
     def _distros_named_in(self, tree: Tree, roots: Sequence[str]) -> tuple[NamedDistro, ...]:
-        """Return the distributions that the repository builds for, () if the user chose the distribution."""
+        """Return the distributions that the repository builds for."""
         if self._named_distros is None:
-            target, knowledge, _ = self._distros[0]
-            known = {} if target.explicit else knowledge.distributions
+            known = self._distros[0].knowledge.distributions
             self._named_distros = named_distros(tree, roots, known) if known else ()
         return self._named_distros
 

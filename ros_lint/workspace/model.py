@@ -265,7 +265,7 @@ class Workspace:
         self._views = views
         self._untracked = untracked
         self.named_distros = named_distros
-        """The distributions that the repository builds for; () if the user chose the distribution of the run."""
+        """The distributions that the repository builds for, as far as its files name them."""
         self.memo: dict[object, Any] = {}
         """Cached results of functions decorated with ``cached_by_workspace`` or ``cached_by_package``. Not for use by rules."""
 

@@ -105,8 +105,8 @@ def naming_fix(workspace: Workspace, name: str, title: str, *edits: Edit, safe: 
 def availability_remark(workspace: Workspace, name: str) -> str:
     """Return a remark if a name does not resolve in every needed distribution, such as " (available only in humble)", else "".
 
-    The name has to resolve in the distributions that the user chose, or in every active one if the user chose none.
-    Packages of the workspace and of underlays resolve in all distributions.
+    The name has to resolve in the distributions that the user chose and in those that the repository builds for, or in every
+    active one if the user chose none. Packages of the workspace and of underlays resolve in all distributions.
     """
     return _availability(workspace, name).remark
 
@@ -138,7 +138,13 @@ def _find_availability(workspace: Workspace, name: str) -> _Availability:
         return _Availability()
     knowledge = world.knowledge
     if target.explicit and all(knowledge.rosdep_resolves(name, distro) for distro in target.distros):
-        return _Availability()
+        lacking = [
+            named.distro
+            for named in workspace.named_distros
+            if named.indexed and not knowledge.rosdep_resolves(name, named.distro)
+        ]
+        too = f" (not available in {', '.join(lacking)}, for which this repository builds, too)"
+        return _Availability(too if lacking else "")
     if not knowledge.covered:
         return _Availability(f" (there are no data about {target.distro})")
     distros = tuple([distro for distro in knowledge.active if knowledge.rosdep_resolves(name, distro)])
