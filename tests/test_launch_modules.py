@@ -43,6 +43,26 @@ def _named(file: LaunchFile) -> set[tuple[str, str]]:
     return {(reference.package, reference.name) for reference in file.references if reference.kind != "package"}
 
 
+def test_a_module_that_is_imported_with_its_package_is_interpreted() -> None:
+    files = {
+        "app/parts/helpers.py": HELPER,
+        "app/parts/__init__.py": "",
+        "app/__init__.py": "",
+        "launch/a.launch.py": """
+from launch import LaunchDescription
+import app.parts.helpers
+
+def generate_launch_description():
+    return LaunchDescription([app.parts.helpers.start("camera")])
+""",
+    }
+    modules = ("app", "app.parts", "app.parts.helpers")
+    package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, modules)
+    resolved = _completed((package, files))["app/launch/a.launch.py"]
+    assert ("driver", "camera") in _named(resolved)
+    assert not resolved.opaque
+
+
 def test_a_helper_module_of_the_same_package_is_interpreted() -> None:
     files = {
         "app/helpers.py": HELPER,

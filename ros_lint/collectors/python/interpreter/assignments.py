@@ -171,11 +171,19 @@ def _set_variable(machine: Interpreter, target: ast.Subscript, name: Value, valu
 def _import(machine: Interpreter, node: ast.Import, frame: Frame) -> None:
     for alias in node.names:
         module = machine.module(alias.name, frame.source, node)
-        top = alias.name.partition(".")[0]
+        top, *inner = alias.name.split(".")
         if alias.asname:
             frame.names[alias.asname] = module or LibraryName(alias.name)
-        elif module is None or "." not in alias.name:
+        elif module is None or not inner:
             frame.names[top] = module or LibraryName(top)
+        elif package := machine.module(top, frame.source, node):
+            frame.names[top] = package
+            for depth, name in enumerate(inner, 2):  # an import sets each module as an attribute of its package
+                child = machine.module(".".join([top, *inner][:depth]), frame.source, node)
+                if child is None:
+                    break
+                package.names[name] = child
+                package = child
 
 
 def _import_from(machine: Interpreter, node: ast.ImportFrom, frame: Frame) -> None:
