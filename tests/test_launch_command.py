@@ -64,7 +64,8 @@ def launch(body: str, *arguments: str) -> list[str]:
     """Return the output lines for one launch file, without its name and the summary."""
     output, err, code = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml", *arguments)
     assert (err, code) == ("", 0)
-    return [line.strip() for line in output.splitlines()[1:-2]]
+    lines = output.splitlines()
+    return [line.strip() for line in lines[1 : lines.index("")]]
 
 
 def test_command_line_words_are_parsed() -> None:
@@ -147,13 +148,53 @@ def test_configurations_in_parameter_lists_are_replaced() -> None:
 
 
 def test_unknown_conditions_are_shown() -> None:
-    assert launch('<node pkg="p" exec="x" if="$(env SIM)"/>') == ["node p x", "if $(env SIM)"]
-    assert launch('<node pkg="p" exec="x" unless="$(env SIM)"/>') == ["node p x", "unless $(env SIM)"]
+    reason = "open because the environment variable 'SIM' is not known"
+    assert launch('<node pkg="p" exec="x" if="$(env SIM)"/>') == ["node p x", "if $(env SIM)", reason]
+    assert launch('<node pkg="p" exec="x" unless="$(env SIM)"/>') == ["node p x", "unless $(env SIM)", reason]
+
+
+def test_the_argument_that_decides_a_condition_is_named() -> None:
+    files = package("p", {"launch/a.launch.xml": xml('<arg name="sim"/><group if="$(var sim)"><node pkg="q" exec="x"/></group>')})
+    output, _, _ = ask(files, "p", "a.launch.xml")
+    assert output.splitlines()[2:5] == [
+        "  node q x",
+        "    if $(var sim)",
+        "    open because the argument 'sim' has no default; sim:=VALUE decides it",
+    ]
+    assert "open because" not in ask(files, "p", "a.launch.xml", "sim:=true")[0]
+
+
+def test_needed_environment_variables_are_listed() -> None:
+    body = '<node pkg="q" exec="$(env PROGRAM)"/><set_env name="SET" value="1"/><node pkg="q" exec="$(env SET)$(env OTHER x)"/>'
+    output, _, _ = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
+    assert "needed environment variables: PROGRAM\n" in output
+
+
+def test_what_starts_a_later_action_is_shown() -> None:
+    assert launch('<timer period="2.5"><node pkg="q" exec="x"/></timer>') == ["node q x (later: 2.5 s)"]
+    python = """
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+
+def generate_launch_description():
+    first = ExecuteProcess(cmd=["ls"])
+    second = ExecuteProcess(cmd=["ps"])
+    third = ExecuteProcess(cmd=["id"], on_exit=[second])
+    return LaunchDescription([first, third, RegisterEventHandler(OnProcessExit(target_action=first, on_exit=[second]))])
+"""
+    output, _, _ = ask(package("p", {"launch/a.launch.py": python}), "p", "a.launch.py")
+    assert output.splitlines()[1:5] == [
+        "  process ls",
+        "  process id",
+        "  process ps (later: on_exit)",
+        "  process ps (later: OnProcessExit)",
+    ]
 
 
 def test_logical_conditions_are_shown_as_written() -> None:
     condition = "$(and $(env SIM) $(not $(equals $(env SHAPE) 'a b')))"
-    assert launch(f'<node pkg="p" exec="x" if="{condition}"/>') == ["node p x", f"if {condition}"]
+    assert launch(f'<node pkg="p" exec="x" if="{condition}"/>')[:2] == ["node p x", f"if {condition}"]
 
 
 def test_a_branch_with_an_unknown_condition_is_uncertain() -> None:
@@ -197,7 +238,7 @@ def test_components_are_shown_with_their_containers() -> None:
 def test_reasons_of_unknown_values_are_shown() -> None:
     body = xml('<node pkg="p" exec="$(env WHICH)"/><node pkg="p" exec="$(var nobody)"/>')
     output, _, code = ask(package("p", {"launch/a.launch.xml": body}), "p", "a.launch.xml")
-    lines = [line.strip() for line in output.splitlines()[1:-2]]
+    lines = [line.strip() for line in output.partition("\n\n")[0].splitlines()[1:]]
     assert code == 1
     assert lines == [
         "node p ?",

@@ -19,6 +19,10 @@ ACCEPTED_PROBLEMS: Final = frozenset({"forgotten-path", "no-slash", "substitutio
 """Kinds of problems of a launch file that ``ros2 launch`` does not detect: it starts the file with wrong values."""
 
 
+TIMER: Final = "TimerAction"
+"""The ``name`` of a ``later`` action that a timer starts."""
+
+
 class LaunchValue(NamedTuple):
     """The possible values of a text in a launch file."""
 
@@ -110,10 +114,10 @@ class LaunchAction(NamedTuple):
 
     * ``argument``: the default, None if the argument is required.
     * ``set``, ``environment``, ``parameter``: the value. For a parameter file, the file.
-    * ``remap``: the new name. ``namespace``: the namespace.
+    * ``remap``: the new name. ``namespace``: the namespace. ``later``: the period of a timer in seconds.
     """
     name: LaunchValue | None = None
-    """Name of a node or component; None if the launch file does not set the name.
+    """Name of a node or component; None if the launch file does not set the name. For ``later``, the class of the event handler.
 
     The alternative "" means that the launch file may not set the name, as in ``name="a" if condition else None``. If
     unknown keywords (``Node(**keywords)``) may set the name, its only text is not plain (``launch.is_plain``).

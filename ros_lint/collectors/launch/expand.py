@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.base.budget import Budget
 from ros_lint.collectors.launch.expansion import Argument, Circle, Expansion, Missing, Refused, Started, Unset
 from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, Texts, final_parameters, of_command_line
-from ros_lint.collectors.launch.scope import Filling, LaunchScope
+from ros_lint.collectors.launch.scope import COMPUTED, Filling, LaunchScope
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_node_renaming, is_settled, joined
 
 if TYPE_CHECKING:
@@ -52,6 +52,7 @@ def expand(
         tuple(run.arguments),
         tuple(run.refused),
         tuple(run.circles),
+        tuple(run.variables),
         tuple(run.unset),
     )
 
@@ -97,6 +98,11 @@ class _Run:
         self._values: dict[str, Texts] = {}
         """Launch configurations that are set outside of scoped groups, with their possible values."""
 
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Environment variables without default that the launch file reads."""
+        return tuple(self._filling.variables)
+
     def file(self, file: LaunchFile, passed: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
         self._may_be_set = bool(file.opaque)
@@ -134,13 +140,15 @@ class _Run:
             self.complete = False
             return scope
         self._filling.unset.clear()
+        self._filling.unknown.clear()
         truth, when = self._filling.truth(action.conditions, scope)
         self._note_unset(action, scope)
         if truth is False:
             return scope
         outer = scope
         if truth is None:
-            scope = scope._replace(certain=False, when=(*scope.when, *when))
+            why = tuple(dict.fromkeys([*scope.why, *[reason for reason in self._filling.unknown if reason != COMPUTED]]))
+            scope = scope._replace(certain=False, when=(*scope.when, *when), why=why)
         match action.kind:
             case "argument":
                 self._declare(action, scope)
@@ -167,7 +175,8 @@ class _Run:
             case "group":
                 return outer.after(self._group(action, scope))
             case "later":
-                snapshot = scope._replace(values=dict(scope.values))
+                trigger = tuple([f"{period} s" for period in self._texts(action.value, scope)]) or self._texts(action.name, scope)
+                snapshot = scope._replace(values=dict(scope.values), trigger=trigger)
                 self._delayed.append(_Delayed(len(self.started), action.children, snapshot, tuple(self._open), self._via))
             case "include":
                 return outer.after(self._include(action, scope))
@@ -195,6 +204,7 @@ class _Run:
                 if scope.certain:
                     self.missing.append(Missing(name, action.span, scope.include))
                 scope.values[name] = (UNKNOWN,)
+                self._filling.required.add(name)
             elif not is_given:
                 self._set(scope, name, self._texts(action.value, scope), scope.certain)
                 self._note_unset(action, scope)
@@ -345,7 +355,9 @@ class _Run:
             ),
             unknown=tuple(self._filling.unknown),
             when=scope.when,
+            why=scope.why,
             later=scope.later,
+            trigger=scope.trigger,
             words=() if is_process else words,
             via=self._via,
         )

@@ -45,8 +45,12 @@ class Started(NamedTuple):
     """The reasons why parts of the texts are unknown."""
     when: tuple[LaunchCondition, ...] = ()
     """The conditions of unknown truth around the action; empty if ``certain``."""
+    why: tuple[str, ...] = ()
+    """The reasons why the conditions in ``when`` are unknown, as clauses of a message."""
     later: bool = False
     """True if a timer or an event starts the action."""
+    trigger: Texts = ()
+    """The class of the event handler that starts the action, or the possible periods of the timer such as ``5.0 s``."""
     words: tuple[Texts, ...] = ()
     """The command-line arguments of a node, each with its possible values."""
     via: Span | None = None
@@ -137,5 +141,7 @@ class Expansion(NamedTuple):
     """Values that are not among the choices of their arguments."""
     circles: tuple[Circle, ...] = ()
     """Includes with endless recursion."""
+    variables: tuple[str, ...] = ()
+    """Environment variables without default that the launch file reads, in order."""
     unset: tuple[Unset, ...] = ()
     """Launch configurations without value. They are left out if a part that cannot be followed may set them."""

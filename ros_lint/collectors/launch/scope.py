@@ -25,6 +25,10 @@ if TYPE_CHECKING:
     from ros_lint.facts.launch import FileChange, LaunchCondition, LaunchValue
 
 
+COMPUTED = "it is computed in a way that ros-lint cannot follow"
+"""The reason why a text is unknown if no argument or environment variable is the reason."""
+
+
 class LaunchScope(NamedTuple):
     """The launch configurations and other settings, such as the namespace, that are in effect for an action.
 
@@ -44,7 +48,11 @@ class LaunchScope(NamedTuple):
     process: tuple[GivenParameter, ...] = ()
     """The parameters of the container around a component, which are those of its process."""
     when: tuple[LaunchCondition, ...] = ()
+    why: tuple[str, ...] = ()
+    """Reasons why the conditions in ``when`` are unknown, as clauses of a message."""
     later: bool = False
+    trigger: Texts = ()
+    """What starts an action that is not started at once, as in :class:`Started`."""
     include: Span | None = None
     """The place of the include action that includes the current file, None for the launched file."""
 
@@ -71,6 +79,10 @@ class Filling:
         self._environment = environment
         self.unknown: dict[str, None] = {}
         """Reasons why parts of the evaluated texts are unknown, since this dictionary was last cleared."""
+        self.required: set[str] = set()
+        """Names of launch arguments that have no default and no value."""
+        self.variables: dict[str, None] = {}
+        """Environment variables without default that evaluated texts need and that nothing sets."""
         self.unset: dict[str, None] = {}
         """Launch configurations without value and default that evaluated texts need, since this dictionary was last cleared."""
 
@@ -121,13 +133,16 @@ class Filling:
             value = self._value(name, scope)
             if name.startswith("$"):
                 if value is None and not has_default:
+                    self.variables[name[1:]] = None
                     yield f"the environment variable '{name[1:]}' is not known"
+            elif value == (UNKNOWN,) and name in self.required:
+                yield f"the argument '{name}' has no default; {name}:=VALUE decides it"
             elif value == (UNKNOWN,):
                 yield f"the argument '{name}' is not known"
             elif value is None and not has_default:
                 yield f"the launch configuration '{name}' is not set"
         if UNKNOWN in text:
-            yield "it is computed in a way that ros-lint cannot follow"
+            yield COMPUTED
 
     def _unset_in(self, text: str, scope: LaunchScope) -> Iterator[str]:
         """Yield the launch configurations in a text that have no value in a scope, and no default in the text."""

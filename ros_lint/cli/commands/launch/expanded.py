@@ -93,6 +93,12 @@ def condition_text(condition: LaunchCondition) -> str:
     return f"if {text} {'==' if condition.wanted else '!='} {condition.equals or repr('')}"
 
 
+def later_text(started: Started) -> str:
+    """Return what starts an action that is not started at once: `` (later: OnProcessExit)``; "" for any other action."""
+    trigger = shown(started.trigger)
+    return f" (later: {trigger})" if trigger else " (later)" if started.later else ""
+
+
 def why_not_followed(started: Started, lookup: LaunchFileLookup) -> str:
     """Return the reason why the file of an include was not read."""
     if len(started.target) != 1 or UNKNOWN in started.target[0]:

@@ -8,12 +8,14 @@ The JSON has ``schema_version`` 1, ``file``, and
 - ``starts``: in order, each with ``kind`` (node, component, process, include), ``package``, ``target`` (executable,
   class, command or file), ``name``, ``namespace``, ``container``, ``parameters``, ``remappings``, ``environment``,
   ``arguments``, ``words`` (the command-line arguments of a node), ``later`` (true if a timer or an event starts it),
+  ``trigger`` (the event handler, or the time of the timer), ``why`` (reasons why the conditions are unknown),
   ``certain``, ``when`` (the conditions), ``unknown`` (reasons why something is unknown), ``problems`` (messages about a
   missing package, executable or class), ``path``, ``line`` and ``column``; for an include also ``follows`` (the file that
   was read, or null) and ``starts``;
   For a node and a component, ``final`` has the parameters with which it starts, after all files and overrides: each with
   ``name``, ``values``, ``certain`` (false if it is perhaps not set or overridden), ``path``, ``line`` and ``column`` of its
   place, which are null for a place that is not known; ``final_unknown`` has the reasons why there may be further parameters;
+- ``variables``: the environment variables without default that these files read;
 - ``unknown``: places in these files that could not be analysed, each with ``reason``, ``path``, ``line`` and ``column``;
 - ``complete``: false if the evaluation stopped early, because includes are cyclic or a limit was exceeded.
 
@@ -32,6 +34,7 @@ from ros_lint.cli.commands.launch.expanded import (
     final_parameters,
     full_names,
     has_more_parameters,
+    later_text,
     shown,
     why_not_followed,
 )
@@ -64,13 +67,12 @@ def _when(started: Started) -> list[str]:
 def _head(started: Started) -> str:
     target = shown(started.target) or "?"
     if started.kind == "process":
-        return f"process {target}{' (later)' if started.later else ''}"
+        return f"process {target}{later_text(started)}"
     if started.kind == "include":
         return f"include {target}"
     name = shown(full_names(started))
-    later = " (later)" if started.later else ""
     package = f"{shown(started.package)} " if started.package else ""
-    return f"{started.kind} {package}{target}{f' as {name}' if name else ''}{later}"
+    return f"{started.kind} {package}{target}{f' as {name}' if name else ''}{later_text(started)}"
 
 
 def _unknown(expanded: ExpandedFile) -> list[tuple[str, Span]]:
@@ -95,6 +97,8 @@ def tree(expanded: ExpandedFile) -> str:
         lines += ["", "not analysed:"]
         lines += [f"  {span}: {reason}" for reason, span in unknown[:_MOST_UNKNOWN]]
         lines += [f"  and {len(unknown) - _MOST_UNKNOWN} more"] if len(unknown) > _MOST_UNKNOWN else []
+    if expansion.variables:
+        lines += ["", f"needed environment variables: {', '.join(expansion.variables)}"]
     origin = expanded.target.source if expanded.target.explicit else "assumed; set with --distro"
     lines += ["", f"{_summary(expansion)} for {expanded.target.distro} ({origin})"]
     return "".join(f"{line}\n" for line in lines)
@@ -130,6 +134,7 @@ def _details(started: Started, expanded: ExpandedFile) -> Iterator[str]:
     yield from (f"error: {message}" for message in expanded.marks.get(started.span, ()))
     if not started.certain:
         yield " and ".join(_when(started)) or "conditional: the condition is unknown"
+        yield from (f"open because {reason}" for reason in started.why)
     for detail in details(started):
         yield _line(detail)
     if has_more_parameters(started):
@@ -187,6 +192,7 @@ def json(expanded: ExpandedFile) -> str:
             for argument in expansion.arguments
         ],
         "starts": _nested(expansion.started, 0, expanded),
+        "variables": list(expansion.variables),
         "unknown": [{"reason": reason, **where(span)} for reason, span in _unknown(expanded)],
         "complete": expansion.complete,
     }
@@ -222,12 +228,14 @@ def _item(started: Started, marks: Marks) -> dict[str, Any]:
         "container": _list(started.container),
         "words": [_list(texts) for texts in started.words],
         "later": started.later,
+        "trigger": _list(started.trigger),
         "parameters": _named(started.parameters),
         "remappings": [{"from": _list(before), "to": _list(after)} for before, after in started.remappings],
         "environment": _named(started.environment),
         "arguments": _named(started.arguments),
         "certain": started.certain,
         "when": _when(started),
+        "why": list(started.why),
         "unknown": list(started.unknown),
         "problems": list(marks.get(started.span, ())),
         **(_final(started.final) if started.final is not None else {}),

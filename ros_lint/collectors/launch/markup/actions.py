@@ -9,7 +9,7 @@ from ros_lint.collectors.launch.groups import group
 from ros_lint.collectors.launch.markup.attributes import Reader, TagReader
 from ros_lint.collectors.launch.markup.entity import Entity, Rejected
 from ros_lint.collectors.symbolic_text import UNKNOWN
-from ros_lint.facts.launch import UNSCOPED, LaunchAction, LaunchCondition, LaunchValue
+from ros_lint.facts.launch import TIMER, UNSCOPED, LaunchAction, LaunchCondition, LaunchValue
 
 
 def _argument(reader: Reader, entity: Entity) -> LaunchAction:
@@ -123,7 +123,10 @@ def _timer(reader: Reader, entity: Entity) -> LaunchAction:
     children = reader.actions(entity.actions())
     if entity.tag == "timer":
         reader.need_truth(entity, "cancel_on_shutdown")
-    return LaunchAction("later", entity.span, conditions=conditions, children=tuple(children))
+    trigger = LaunchValue((TIMER,), entity.span)
+    return LaunchAction(
+        "later", entity.span, name=trigger, value=reader.text(entity, "period"), conditions=conditions, children=tuple(children)
+    )
 
 
 def _loop(reader: Reader, entity: Entity) -> LaunchAction:

@@ -19,12 +19,15 @@ from ros_lint.collectors.python.interpreter.values import (
     plain,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN
-from ros_lint.facts.launch import LaunchAction
+from ros_lint.facts.launch import TIMER, LaunchAction, LaunchValue
 
 
 def _timer(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    children = walker.actions(launch_object.get(-1, "actions"), (), place_of(launch_object))
-    return [LaunchAction("later", place_of(launch_object), conditions=conditions, children=tuple(children))]
+    place = place_of(launch_object)
+    children = walker.actions(launch_object.get(-1, "actions"), (), place)
+    period = walker.value(launch_object, -1, "period")
+    trigger = LaunchValue((TIMER,), place)
+    return [LaunchAction("later", place, name=trigger, value=period, conditions=conditions, children=tuple(children))]
 
 
 def _event(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
@@ -36,7 +39,11 @@ def _event(walker: Walker, launch_object: LaunchObject, conditions: Conditions) 
             handler = handler.made
         if isinstance(handler, LaunchObject):
             actions += _handler_actions(walker, handler)
-    return [LaunchAction("later", place_of(launch_object), conditions=conditions, children=tuple(actions))] if actions else []
+    if not actions:
+        return []
+    place, handler = place_of(launch_object), plain(launch_object.get(0, "event_handler"))
+    trigger = LaunchValue((handler.name if isinstance(handler, LaunchObject) else UNKNOWN,), place)
+    return [LaunchAction("later", place, name=trigger, conditions=conditions, children=tuple(actions))]
 
 
 def _handler_actions(walker: Walker, handler: LaunchObject) -> list[LaunchAction]:
@@ -67,7 +74,8 @@ def later(walker: Walker, launch_object: LaunchObject, *names: str) -> list[Laun
                 value = walker.run(value, [Unknown("an event"), Context()], {}, launch_object)
             if value is not None and not isinstance(value, Unknown):
                 actions += walker.actions(value, alternative.conditions, place_of(launch_object))
-    return [LaunchAction("later", place_of(launch_object), children=tuple(actions))] if actions else []
+    place = place_of(launch_object)
+    return [LaunchAction("later", place, name=LaunchValue((names[0],), place), children=tuple(actions))] if actions else []
 
 
 def _opaque_function(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:

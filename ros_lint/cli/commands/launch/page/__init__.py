@@ -23,6 +23,7 @@ from ros_lint.cli.commands.launch.expanded import (
     final_parameters,
     full_names,
     has_more_parameters,
+    later_text,
     why_not_followed,
 )
 from ros_lint.collectors.launch.expressions import evaluate
@@ -177,7 +178,7 @@ class _Page:
         )
 
     def _head(self, action: Started) -> str:
-        later = " (later)" if action.later else ""
+        later = html.escape(later_text(action))
         if action.kind in ("include", "process"):
             return f"<code>{self._texts(action.target)}</code>{later}"
         program = f"{self._texts(action.package)} {self._texts(action.target)}" if action.package else self._texts(action.target)
@@ -192,6 +193,7 @@ class _Page:
             number = self._number(condition)
             text = html.escape(condition_text(condition) or "an unknown condition")
             yield f'<span class="condition" data-condition="{number}">{text} <span class="truth"></span></span>'
+        yield from (f"open because {html.escape(reason)}" for reason in action.why)
         if not action.certain and not action.when:
             yield "conditional: the condition is unknown"
         for detail in details(action):
