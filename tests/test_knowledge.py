@@ -192,6 +192,7 @@ def test_rosdep_keys_resolve_for_the_platform_of_the_distribution() -> None:
         ("yaml-cpp/yaml.h", "yaml-cpp"),
         ("boost/filesystem/path.hpp", "libboost-filesystem-dev"),
         ("boost/optional.hpp", "boost"),
+        ("boost/asio/ip/tcp.hpp", "boost"),
         ("OgreVector3.h", "rviz_ogre_vendor"),
         ("moveit/benchmarks/server.h", "moveit_ros_benchmarks"),
         ("autoware/adapi_specs/routing.hpp", "autoware_adapi_specs"),

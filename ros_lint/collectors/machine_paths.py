@@ -44,6 +44,8 @@ _WRITING_CALL = re.compile(
 _RELATIVE_ATTRIBUTE = re.compile(r"\b(?:mesh|texture|asset)dir\s*=\s*[\"']\Z")
 """Matches the text before the value of an attribute in a MuJoCo model that is relative to the folder of the model."""
 _PARAMETER_DEFAULT = re.compile(r"\bdeclare_parameter(?:<[\w:]+>)?\(\s*[\"'][\w./-]+[\"']\s*,\s*(?:std::string\(|\{)?\s*[\"']\Z")
+_HELP = re.compile(r"""\b(?:description|help)\s*=\s*\(?\s*(?:f?(["'])(?:(?!\1).)*\1\s*)*f?(["'])(?:(?!\2).)*\Z""", re.DOTALL)
+"""Matches the text before a position in a help text: that of a launch argument, a parameter, or an option of a program."""
 _DESCRIPTION_FILE = "Description File: "
 _UNREAD = re.compile(r"^([ ]*)Description File:[^\n]*\n\1Description Source: Topic\b", re.MULTILINE)
 """Matches a file path that RViz stores in a display but does not read, because a topic gives the description."""
@@ -53,7 +55,7 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
     """Return the machine-specific paths of a file: in a home directory, in ``src``, or in ``/opt/ros``.
 
     Paths below ``~`` count only if they lead into a workspace. A path ends where a value is substituted. Left out are:
-    - comments and docstrings,
+    - comments, docstrings and help texts (``description="..."``, ``help="..."``),
     - paths that RViz stores but does not read,
     - computed paths (``"/home/" + user``, ``join(root, "src/robot")``),
     - folders that all users have.
@@ -80,7 +82,12 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
     ignored_ranges = [*comments(text), *(_docstrings(text) if text.path.endswith(".py") else ())]
     if text.path.endswith(".rviz"):
         ignored_ranges += [unread.span() for unread in _UNREAD.finditer(content)]
-    reported = [match for match in matches if not any(start <= match.start("path") < end for start, end in ignored_ranges)]
+    reported = [
+        match
+        for match in matches
+        if not any(start <= match.start("path") < end for start, end in ignored_ranges)
+        and not _HELP.search(content, max(0, match.start("path") - _MAX_CONTEXT), match.start("path"))
+    ]
     return tuple([_machine_path(text, match) for match in reported])
 
 

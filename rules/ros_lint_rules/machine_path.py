@@ -45,6 +45,7 @@ If the file is not in the share directory yet, install it first; the message say
 One path in several files of a package is reported once. Not reported:
 
 - Comments, docstrings, tests, examples and documentation.
+- Help texts: `description=` of a launch argument or a parameter, and `help=` of an option of a program.
 - CMake files that are not part of the build or that a build generated, and launch files of ROS 1.
 - Model files that an RViz configuration mentions, if the robot comes from a topic: RViz does not read them.
 - Paths that are composed at run time, such as `'/home/' + user` and `join(root, 'src/robot')`.

@@ -17,8 +17,8 @@ and packages that find this one do not find its dependencies. Mostly the variabl
 ## How to fix it
 
 Write the name of the variable that is set, or set the variable before the command. If nothing is missing, remove the reference.
-If exactly one variable of the package has a similar name, the fix writes this name. The fix is unsafe, because the command then
-has an effect.
+If exactly one variable of the package has a similar name and contents that may fit the command, the fix writes this name. The
+fix is unsafe, because the command then has an effect.
 
 Findings that are probably consequences are hidden as long as this one is shown: for example, findings of
 `unexported-dependency` if the variable is an argument of `ament_export_dependencies()`.
@@ -37,9 +37,10 @@ Not reported:
 - Commands in functions, macros and conditions, except conditions for tests.
 - References within a longer argument: `${folder}/launch`.
 
-Reported with medium confidence: the variable resembles no variable that is set, and the script finds a package that may provide
-CMake code. The names of such packages contain `build`, `cmake`, `common`, `config`, `macros`, `modules` or `tools`. Packages of
-interfaces, such as `common_msgs`, provide none.
+Reported with medium confidence: no variable with a similar name has contents that are known to fit the command, such as targets
+for `target_link_libraries()`, and the script finds a package that may provide CMake code. The names of such packages contain
+`build`, `cmake`, `common`, `config`, `macros`, `modules` or `tools`. Packages of interfaces, such as `common_msgs`, provide
+none.
 """
 
 from __future__ import annotations
@@ -79,7 +80,8 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     products = script.products
     has_exports = products.targets or products.interfaces or any(file.path.startswith("include/") for file in products.installs)
     for name, places in references.items():
-        finding = _finding(name, places, _similar(package, name), certain)
+        similar, fits = _similar(package, workspace, name, places)
+        finding = _finding(name, places, similar, certain or fits)
         harmless = not has_exports and all(reference.command.startswith("ament_export_") for reference in places)
         yield finding._replace(severity=Severity.INFO) if harmless else finding
 
@@ -100,7 +102,7 @@ def _finding(name: str, places: Sequence[UnsetVariable], similar: Sequence[str],
         name,
         first_related(Related(f"'{name}' is also read here", reference.span) for reference in others),
         Fix.of(f"write '{similar[0]}'", *fix, safe=False) if fix else None,
-        Confidence.HIGH if similar or certain else Confidence.MEDIUM,
+        Confidence.HIGH if certain else Confidence.MEDIUM,
         explains=tuple(map(Consequence, dict.fromkeys(rule for reference in places for rule in _explained(reference.command)))),
     )
 
@@ -139,19 +141,69 @@ _CONSEQUENCES = {
 }  # fmt: skip
 
 
-def _similar(package: Package, name: str) -> list[str]:
-    """Return those variables of the CMake files whose names resemble ``name``, the most similar first."""
-    all_names: dict[str, None] = {}
+def _similar(package: Package, workspace: Workspace, name: str, places: Sequence[UnsetVariable]) -> tuple[Sequence[str], bool]:
+    """Return those variables of the CMake files whose names resemble ``name``, the most similar first.
+
+    Variables with contents that the commands at ``places`` cannot use are left out. The second result is True if the contents of
+    all returned variables are known to fit, and there is such a variable.
+    """
+    contents: dict[str, set[str]] = {}
     for command, index in _SETTING.items():
         for call in package.calls(command, anywhere=True):
             if len(call.args) > index and _NAME.fullmatch(call.texts[index]):
-                all_names[call.texts[index]] = None
-    by_case = [candidate for candidate in all_names if candidate.lower() == name.lower()]
-    return by_case[:1] or names.similar_names(name, all_names, 2, 0.75)
+                contents.setdefault(call.texts[index], set()).update(call.texts[index + 1 :] if command in _LISTING else ())
+    allowed = [kinds for reference in places if (kinds := _allowed(reference.command))]
+    fits: dict[str, bool] = {}
+    for candidate, words in contents.items():
+        known = [kinds for word in words if (kinds := _kinds(word, package, workspace))]
+        if all(kinds & wanted for kinds in known for wanted in allowed):
+            fits[candidate] = bool(known)
+    by_case = [candidate for candidate in fits if candidate.lower() == name.lower()]
+    similar = by_case[:1] or names.similar_names(name, fits, 2, 0.75)
+    return similar, bool(similar) and all(fits[candidate] for candidate in similar)
 
 
-_SETTING = {"set": 0, "list": 1, "file": 1, "find_library": 0, "find_path": 0}
+_SETTING = {
+    "set": 0, "list": 1, "file": 1, "find_library": 0, "find_path": 0,
+    "qt5_add_resources": 0, "qt5_wrap_cpp": 0, "qt5_wrap_ui": 0, "qt6_add_resources": 0, "qt6_wrap_cpp": 0, "qt6_wrap_ui": 0,
+    "qt_add_resources": 0, "qt_wrap_cpp": 0, "qt_wrap_ui": 0,
+}  # fmt: skip
 """Commands that set a variable, with the index of its name."""
+_LISTING = frozenset({"set", "list"})
+"""Commands whose further arguments are the contents of the variable."""
+
+
+def _allowed(command: str) -> frozenset[str]:
+    """Return the kinds of arguments (:func:`_kinds`) that a command can use; empty if it can use any."""
+    return next((kinds for prefix, kinds in _ALLOWED.items() if command.startswith(prefix)), frozenset())
+
+
+_ALLOWED = {
+    "ament_export_dependencies": frozenset({"package"}),
+    "ament_target_dependencies": frozenset({"package"}),
+    "target_link_": frozenset({"target", "file"}),
+    "add_": frozenset({"file"}),
+    "ament_add_": frozenset({"file"}),
+    "ament_auto_add_": frozenset({"file"}),
+    "rosidl_": frozenset({"file"}),
+    "target_sources": frozenset({"file"}),
+}
+"""The kinds of arguments that commands can use, by the beginnings of their names."""
+
+
+def _kinds(word: str, package: Package, workspace: Workspace) -> frozenset[str]:
+    """Return what an argument may be: "package", "target" or "file"; empty if that is unknown, as for ``${name}``."""
+    if "$" in word or not _WORD.fullmatch(word):
+        return frozenset()
+    kinds = {
+        "target": "::" in word or any(target.name == word for target in package.built.products.targets),
+        "file": "/" in word or word in package.files,
+        "package": workspace.world.is_package(word),
+    }
+    return frozenset(kind for kind, applies in kinds.items() if applies)
+
+
+_WORD = re.compile(r"[\w:./+-]+")
 _NAME = re.compile(r"[A-Za-z_]\w*")
 
 
