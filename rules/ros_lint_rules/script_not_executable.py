@@ -23,6 +23,9 @@ Write `install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME})`, or `USE_
 replaces `FILES` by `PROGRAMS`, adds `USE_SOURCE_PERMISSIONS` if the files have the bit, or adds an interpreter line to Python
 scripts.
 
+A script whose module is also started by an entry point is an info: remove the script from `data_files`. Exception: a launch file
+of the workspace starts the script under its file name.
+
 ## Limitations
 
 Not reported:
@@ -76,6 +79,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         provided.program and provided.source in files and files[provided.source].executable
         for provided in script.products.installs
     )
+    entries = {f"{entry.module.replace('.', '/')}.py": entry.name for entry in script.products.entry_points}
     without_bit: dict[Span, list[InstalledFile]] = {}
     for provided in script.products.installs:
         file = files.get(provided.source)
@@ -84,7 +88,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             continue
         wanted = name in started or (file.main and bool(file.shebang))
         if provided.path not in runs:
-            if wanted and (file.shebang or name.endswith(_ENDINGS)):
+            if provided.source in entries and name not in started:
+                yield _twice(package, provided, name, entries[provided.source])
+            elif wanted and (file.shebang or name.endswith(_ENDINGS)):
                 without_bit.setdefault(provided.span, []).append(provided)
         elif provided.program and (file.main or name in started):
             yield from _line(package, file, name, name in started, any_executable)
@@ -114,6 +120,21 @@ def _line(package: Package, file: ScriptFile, name: str, started: bool, any_exec
         message = f"'{file.path}' is not executable, so it does not start after colcon build --symlink-install; run chmod +x"
         confidence = Confidence.HIGH if any_executable else Confidence.MEDIUM
         yield Finding(message, place, file.path, confidence=confidence, severity=Severity.WARNING)
+
+
+def _twice(package: Package, script: InstalledFile, name: str, entry: str) -> Finding:
+    """Return the finding for a script without the executable bit whose module an entry point starts.
+
+    ``name``: the file name of the script after installation. ``entry``: the name of the entry point.
+    """
+    return Finding(
+        f"'{name}' is installed without the executable bit, so ros2 run does not find it; remove it from data_files, because the "
+        f"entry point '{entry}' starts the same module",
+        script.span,
+        script.source,
+        (Related(f"the script '{script.source}'", package.start_of(script.source)),),
+        severity=Severity.INFO,
+    )
 
 
 def _no_bit(package: Package, span: Span, scripts: list[InstalledFile], files: dict[str, ScriptFile]) -> Finding:

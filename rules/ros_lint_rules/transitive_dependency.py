@@ -47,7 +47,7 @@ Reported with low confidence, because packages rarely declare it:
 - Tools that run tests, such as GoogleTest, pytest and `launch_testing`, if a test dependency or build tool provides them.
 - `ament_cmake_core`, because every build tool provides it, and `ament_cmake`, if another build tool such as `ament_cmake_auto`
   provides it.
-- Linters that `ament_lint_common` contains.
+- Linters that `ament_lint_common` contains, and their Python modules.
 - Packages that launch files use, if a declared metapackage such as `navigation2` depends on them.
 - Optional uses. They have no fix.
 
@@ -137,7 +137,11 @@ def _comes_by_design(package: Package, workspace: Workspace, need: dependencies.
         Role.TEST | Role.TOOL
     ):
         return True
-    if is_direct and in_tests and carrier == _LINTERS:
+    if (
+        in_tests
+        and carrier == _LINTERS
+        and (is_direct or path[1:] == (f"ament_cmake_{need.name.removeprefix('ament_')}", need.name))
+    ):
         return True
     if all(use.via in ("launch", "package") for use in need.uses):
         return len(path) > 1 and all(dependencies.is_metapackage(package, workspace, between) for between in path[:-1])
@@ -183,11 +187,15 @@ def _finding(package: Package, workspace: Workspace, need: dependencies.Need, co
 def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tuple[str, ...]:
     """Return the names on a path of dependencies, from a declared name to the needed package.
 
-    If possible, the declared name serves the purpose for which the package is needed: to build, to run or to test.
+    If possible, the declared name serves the purpose for which the package is needed: to build, to run or to test. Otherwise, a
+    dependency that is used for this purpose comes first, because ``wrong-dependency-kind`` asks to correct its tag.
     """
     best = need.uses[0]
-    names = _declared_names(package, workspace)
-    for starts in (names[_purpose(best.role)], names[_ANY]):
+    names, purpose = _declared_names(package, workspace), _purpose(best.role)
+    used = dict.fromkeys(
+        name for other in dependencies.needs(package, workspace) if other.role & purpose for name in other.declared
+    )
+    for starts in (names[purpose], used, names[_ANY]):
         for name in sorted(best.providers, key=workspace.world.is_runtime_library):
             if path := workspace.world.path(starts, name):
                 return path

@@ -133,10 +133,11 @@ def distros_providing(package: Package, workspace: Workspace, name: str) -> tupl
 
 @cached_by_package
 def _declared_around(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return the names that the package declares, and those that its transitive dependencies in the workspace declare."""
+    """Return the names that the package declares, and the run-time and exported ones of its dependencies in the workspace."""
     closure = all_declared(package, workspace)
     around = [namesake for name, namesakes in workspace.by_name.items() if name in closure for namesake in namesakes]
-    return frozenset([declared.name for declaring in (package, *around) for declared in declaring.declared])
+    handed_on = [declared.name for other in around for declared in other.declared if declared.role & (Role.EXEC | Role.EXPORT)]
+    return frozenset([*(declared.name for declared in package.declared), *handed_on])
 
 
 def _joined(missing: Sequence[Need]) -> list[Need]:
