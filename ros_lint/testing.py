@@ -37,7 +37,8 @@ from ros_lint.engine.report import Issue
 from ros_lint.engine.run import find_issues
 from ros_lint.knowledge import Knowledge
 from ros_lint.knowledge.underlays import in_tree
-from ros_lint.workspace.loader import DistroData, Loader
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.state import DistroData
 from ros_lint.workspace.target import TargetDistro
 
 FENCE = re.compile(

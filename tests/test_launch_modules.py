@@ -35,7 +35,7 @@ def _package(
 
 def _completed(*packages: tuple[launch_modules.LaunchPackage, dict[str, str]]) -> dict[str, LaunchFile]:
     tree = MemoryTree({f"{package.name}/{path}": text for package, files in packages for path, text in files.items()})
-    resolved = launch_modules.resolve_modules(tree, [package for package, _ in packages])
+    resolved = launch_modules.LaunchModules(tree).resolve([package for package, _ in packages])
     return {file.path: file for files in resolved for file in files}
 
 
@@ -289,7 +289,7 @@ def generate_launch_description():
 """,
     }
     package = _package("app", files, {})
-    assert launch_modules.resolve_modules(MemoryTree({}), [package]) == [package.launch]
+    assert launch_modules.LaunchModules(MemoryTree({})).resolve([package]) == [package.launch]
 
 
 def test_parameter_files_named_by_a_module_are_found() -> None:

@@ -24,7 +24,8 @@ from ros_lint.engine.report import Issue
 from ros_lint.knowledge import Knowledge
 from ros_lint.testing import Case, loader_of, read_cases
 from ros_lint.workspace.build_scripts import evaluate as build_scripts
-from ros_lint.workspace.loader import DistroData, Loader
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.state import DistroData
 from ros_lint.workspace.target import TargetDistro
 
 RULE = Rule("r", "ROS999", "s", Severity.ERROR, "0.1", "", package=lambda package, workspace: ())
@@ -114,13 +115,13 @@ def test_a_cause_explains_findings_only_where_it_holds() -> None:
 def load_all(files: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> tuple[Any, list[str]]:
     """Return the workspaces for humble and jazzy, and the folders of the packages whose CMakeLists.txt is evaluated."""
     evaluated: list[str] = []
-    evaluate = build_scripts._cmake
+    evaluate = build_scripts.Scripts._cmake
 
-    def record(tree: Any, parts: Any, distro: str, *rest: Any) -> Any:
-        evaluated.append(f"{parts.package.name} {distro}")
-        return evaluate(tree, parts, distro, *rest)
+    def record(scripts: Any, parts: Any) -> Any:
+        evaluated.append(f"{parts.package.name} {scripts._distro}")
+        return evaluate(scripts, parts)
 
-    monkeypatch.setattr(build_scripts, "_cmake", record)
+    monkeypatch.setattr(build_scripts.Scripts, "_cmake", record)
     first, second = (TargetDistro(*pair, others=(other,)) for *pair, other in (("humble", "", "jazzy"), ("jazzy", "", "humble")))
     loader = Loader(MemoryTree(files), ("",), first, others=[DistroData(second, Knowledge("jazzy"))])
     return loader.load_all(), evaluated
@@ -305,7 +306,7 @@ def test_the_proposed_condition_resolves_the_finding(robot: Path, capsys: pytest
 
 def trial(*issues: Issue) -> Trial:
     workspace: Any = SimpleNamespace(target=TargetDistro("humble", "--distro", others=("jazzy",)))
-    return Trial({}, (workspace, workspace), issues)
+    return Trial({}, workspace.target.distros, issues)
 
 
 def test_a_finding_that_a_fix_causes_in_another_distribution_is_new() -> None:

@@ -40,7 +40,8 @@ def places(code: bytes) -> dict[str, tuple[int, int]]:
     }
     sources = {name: source(name, of, ("nav_msgs/msg/path.hpp",) if name == "common" else ()) for name, of in files.items()}
     texts = {f"{name}/{file}": text for name, of in files.items() for file, text in of.items()}
-    types = Types(list(sources.values()), MemoryTree(texts), lambda name: set(files) if name == "node" else set())
+    types = Types(MemoryTree(texts), lambda name: set(files) if name == "node" else set())
+    types.renew(list(sources.values()))
     result = types.used(sources["node"], ["house_route_handler", "nav_msgs", "sensor_msgs"])
     assert all(span.path == "node/src/node.cpp" for span in result.values())
     return {name: span[1:3] for name, span in result.items()}

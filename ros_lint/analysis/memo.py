@@ -16,10 +16,7 @@ def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspa
 
     @wraps(function)
     def cached_function(workspace: Workspace) -> T:
-        if function not in workspace.memo:
-            workspace.memo[function] = function(workspace)
-        memo: T = workspace.memo[function]
-        return memo
+        return workspace.memo.ask(function, lambda: function(workspace))
 
     return cached_function
 
@@ -29,12 +26,17 @@ def cached_by_package(function: Callable[[Package, Workspace], T]) -> Callable[[
 
     @wraps(function)
     def cached_function(package: Package, workspace: Workspace) -> T:
-        key = (function, id(package))
-        cached = workspace.memo.get(key)
-        if cached is None:
-            # The package is stored, too, so that its id stays unique.
-            cached = workspace.memo[key] = (package, function(package, workspace))
-        memo: T = cached[1]
-        return memo
+        # The package is stored, too, so that its id stays unique.
+        return workspace.memo.ask((function, id(package)), lambda: (package, function(package, workspace)))[1]
+
+    return cached_function
+
+
+def cached_by_name(function: Callable[[Workspace, str], T]) -> Callable[[Workspace, str], T]:
+    """Cache the results of a function with a workspace and a name as arguments: a decorator for pure functions."""
+
+    @wraps(function)
+    def cached_function(workspace: Workspace, name: str) -> T:
+        return workspace.memo.ask((function, name), lambda: function(workspace, name))
 
     return cached_function

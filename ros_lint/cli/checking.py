@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from ros_lint.engine import registry
@@ -10,7 +9,7 @@ from ros_lint.engine.check import ReportContext, check
 from ros_lint.engine.selection import Selection, SelectionError, check_selectors, select
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from ros_lint.cli.session import Session
     from ros_lint.cli.settings import Settings
@@ -23,17 +22,15 @@ def check_workspaces(
     workspaces: Sequence[Workspace],
     folders: Sequence[str],
     warnings: Sequence[str] = (),
-    changed: Mapping[str, bytes] = MappingProxyType({}),
 ) -> Report:
     """Return the report of the rules that the settings select.
 
     ``workspaces`` has the loaded workspace once for each distribution. Findings in ``folders`` are reported. ``warnings``
-    are added to those of the session. ``changed`` has contents of files, by path, that replaced those on disk when the
-    workspace was loaded. Raises SelectionError, PluginError and KnowledgeError.
+    are added to those of the session. Raises SelectionError, PluginError and KnowledgeError.
     """
     rules = registry.load(session.settings["plugins"])
     context = ReportContext(rules, session.knowledge.date, tuple(folders), (*session.warnings, *warnings))
-    return check(workspaces, session.loader.suppressions(changed), selection_of(session.settings), context)
+    return check(workspaces, session.loader.suppressions(), selection_of(session.settings), context)
 
 
 def selection_of(settings: Settings) -> Selection:

@@ -157,15 +157,18 @@ def _relative(paths: Iterable[str], base: str) -> tuple[str, ...]:
     return tuple("" if path == base else os.path.relpath(path, base).replace(os.sep, "/") for path in paths)
 
 
-def open_session(request: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None) -> Session:
+def open_session(
+    request: Request, progress: Progress, workspace: Tree | None = None, machine: Tree | None = None, *, again: bool = False
+) -> Session:
     """Return a session for a request.
 
-    ``workspace`` and ``machine`` replace the files of the workspace and of the machine on disk. Raises UsageError and
-    KnowledgeError.
+    ``workspace`` and ``machine`` replace the files of the workspace and of the machine on disk. ``again`` is True if the loader
+    will load the workspace several times. Raises UsageError and KnowledgeError.
     """
     # Not needed for a cached report.
     from ros_lint.workspace.cache.facts import FactCache  # noqa: PLC0415
-    from ros_lint.workspace.loader import DistroData, Loader  # noqa: PLC0415
+    from ros_lint.workspace.loader import Loader  # noqa: PLC0415
+    from ros_lint.workspace.state import DistroData  # noqa: PLC0415
 
     settings, base = request.settings, request.base
     knowledge = Knowledge(request.targets[0].distro, request.places)
@@ -187,6 +190,7 @@ def open_session(request: Request, progress: Progress, workspace: Tree | None = 
         jobs=settings["jobs"],
         cache=FactCache(request.cache, () if request.inside == (request.base,) else request.inside),
         progress=progress,
+        again=again,
     )
     return Session(loader, settings, knowledge, base, request.roots, (*request.warnings, *unread), request.cache, excluder)
 

@@ -110,6 +110,10 @@ def settle(arguments: Mapping[str, Any], start: str, environment: Mapping[str, s
     return Settings(values, warnings, shown, os.path.dirname(os.path.abspath(path)) if path else "", text)
 
 
+CONFIGURATION_FILES = ("ros-lint.toml", "pyproject.toml")
+"""Names of files with settings."""
+
+
 def find(start: str) -> str:
     """Return the path of the nearest configuration file in ``start`` or above it, "" if there is none."""
     folder = os.path.abspath(start)

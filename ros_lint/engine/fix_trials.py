@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from ros_lint.analysis.rule import Rule
     from ros_lint.engine.report import Issue
     from ros_lint.workspace.loader import Loader
-    from ros_lint.workspace.model import Workspace
 
 _MOST_TRIALS = 2
 """Number of trials to keep in memory, because the result of a successful trial is needed again immediately."""
@@ -32,11 +31,12 @@ DistroIdentity = tuple[str, str]
 
 
 class Trial(NamedTuple):
-    """The workspace loaded with changed files, once for each distribution of the run, and its issues."""
+    """The issues of the workspace with changed files."""
 
     changed: Mapping[str, bytes]
     """The new contents of the changed files, by path."""
-    workspaces: tuple[Workspace, ...]
+    distros: tuple[str, ...]
+    """The distributions of the run."""
     issues: tuple[Issue, ...]
 
     def identity_counts(self) -> Counter[DistroIdentity]:
@@ -60,7 +60,7 @@ class Trial(NamedTuple):
 
         The identity is the rule, the package and the subject of the issue.
         """
-        return [(distro, issue.identity) for distro in issue.distros or self.workspaces[0].target.distros]
+        return [(distro, issue.identity) for distro in issue.distros or self.distros]
 
 
 class FixTrials:
@@ -94,19 +94,19 @@ class FixTrials:
 
     @cached_property
     def _writable(self) -> Writable:
-        workspaces = self.trial({}).workspaces
+        workspaces = self._loader.load_all()
         manifests = [package.manifest.path for space in workspaces for package in space.unusable if package.manifest]
         package_files = [join(package.path, file) for space in workspaces for package in space.packages for file in package.files]
         return Writable(self._loader.tree, self._roots, list(dict.fromkeys([*package_files, *manifests])))
 
     def trial(self, changed: Mapping[str, bytes]) -> Trial:
-        """Return the workspace with the contents ``changed`` of files (by path), loaded and checked."""
+        """Return the issues of the workspace with the contents ``changed`` of files (by path)."""
         for trial in self._trials:
             if trial.changed == changed:
                 return trial
         workspaces = self._loader.load_all(changed)
-        issues = find_issues(workspaces, self._run, self._loader.suppressions(changed), self._rules).issues
-        trial = Trial(changed, workspaces, issues)
+        issues = find_issues(workspaces, self._run, self._loader.suppressions(), self._rules).issues
+        trial = Trial(changed, workspaces[0].target.distros, issues)
         self._trials = [*self._trials[:1], *self._trials[1:][1 - _MOST_TRIALS :], trial]
         return trial
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Sequence
+from functools import partial
 from typing import NamedTuple
 
 from ros_lint.analysis.finding import Finding
@@ -28,23 +29,63 @@ def run_rules(
     Packages of ROS 1 have no findings, because the rules are for ROS 2. If a rule crashes for one package, its findings in other
     packages and the findings of other rules are still returned.
     """
-    issues: set[Issue] = set()
-    crashes: list[Crash] = []
+    places = tuple(folders)
+    results = [
+        workspace.memo.ask((rule.name, rule.package or rule.workspace, places), partial(_in_folders, rule, workspace, places))
+        for rule in rules
+    ]
+    issues = {issue for of_rule in results for issue in of_rule.issues}
+    return tuple(sorted(issues, key=sort_key)), tuple([crash for of_rule in results for crash in of_rule.crashes])
+
+
+class _Results(NamedTuple):
+    """The findings of a rule. If the rule crashed in a package, only the findings there before the crash are known."""
+
+    issues: tuple[Issue, ...]
+    crashes: tuple[Crash, ...] = ()
+
+
+class _Checked(NamedTuple):
+    """The part of a workspace whose findings are reported."""
+
+    packages: tuple[Package, ...]
+    names: frozenset[str]
+    """The names of the packages, and of folders with an unusable package.xml."""
+
+
+def _in_folders(rule: Rule, workspace: Workspace, folders: tuple[str, ...]) -> _Results:
+    """Return the findings of a rule about packages and files below ``folders``."""
+    checked = workspace.memo.ask(("checked", folders), partial(_find_checked, workspace, folders))
+    if rule.package is None:
+        found = _results(rule, None, workspace)
+        return found._replace(issues=tuple([issue for issue in found.issues if _is_about(issue, checked.names, folders)]))
+    results = [
+        workspace.memo.ask((rule.name, rule.package, package.path), partial(_results, rule, package, workspace))
+        for package in checked.packages
+    ]
+    return _Results(
+        tuple([issue for of_package in results for issue in of_package.issues]),
+        tuple([crash for of_package in results for crash in of_package.crashes]),
+    )
+
+
+def _find_checked(workspace: Workspace, folders: tuple[str, ...]) -> _Checked:
     packages = [package for package in workspace.packages if is_below_any(package.path, folders) and not package.is_ros1]
     unusable = [package for package in workspace.unusable if is_below_any(package.path, folders)]
-    names = {package.name for package in (*packages, *unusable)}
-    for rule in rules:
-        for package in packages if rule.package else (None,):
-            try:
-                found = _issues(rule, package, workspace)
-                issues.update(issue for issue in found if package or _is_about(issue, names, folders))
-            except KnowledgeError:
-                raise  # no rule can run, and the user must act
-            except Exception:
-                import traceback  # noqa: PLC0415
+    return _Checked(tuple(packages), frozenset([package.name for package in (*packages, *unusable)]))
 
-                crashes.append(Crash(rule.name, package.name if package else "", traceback.format_exc()))
-    return tuple(sorted(issues, key=sort_key)), tuple(crashes)
+
+def _results(rule: Rule, package: Package | None, workspace: Workspace) -> _Results:
+    found: list[Issue] = []
+    try:
+        found.extend(_issues(rule, package, workspace))
+    except KnowledgeError:
+        raise  # no rule can run, and the user must act
+    except Exception:
+        import traceback  # noqa: PLC0415
+
+        return _Results(tuple(found), (Crash(rule.name, package.name if package else "", traceback.format_exc()),))
+    return _Results(tuple(found))
 
 
 def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:

@@ -25,6 +25,17 @@ class Closure:
         self._reach = reach
         self._bits = bits
 
+    def __eq__(self, other: object) -> bool:
+        """Return whether both closures have equal names, with equal dependencies of unknown extent."""
+        return (
+            isinstance(other, Closure)
+            and self._reach.numbers is other._reach.numbers
+            and self._bits == other._bits
+            and self._bits & self._reach.unknown == self._bits & other._reach.unknown
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __contains__(self, name: str) -> bool:
         number = self._reach.numbers.get(name)
         return number is not None and bool(self._bits >> number & 1)
@@ -58,13 +69,14 @@ class Closure:
 class Reach:
     """The graph from which closures are computed: the run-time and exported dependencies of packages and rosdep keys.
 
-    ``provided_by`` is a function that returns the direct dependencies of a package or key, None if they are unknown.
+    ``provided_by`` is a function that returns the direct dependencies of a package or key, None if they are unknown. Closures of
+    a graph can be compared with those of an ``earlier`` graph, because names have the same numbers in both.
     """
 
-    def __init__(self, provided_by: Callable[[str], tuple[str, ...] | None]) -> None:
+    def __init__(self, provided_by: Callable[[str], tuple[str, ...] | None], earlier: Reach | None = None) -> None:
         self._provided_by = provided_by
-        self.numbers: dict[str, int] = {}
-        self._names: list[str] = []
+        self.numbers: dict[str, int] = earlier.numbers if earlier else {}
+        self._names: list[str] = earlier._names if earlier else []
         self._bits: dict[str, int] = {}
         self._next: dict[str, tuple[str, ...]] = {}
         self.unknown = 0
@@ -134,8 +146,9 @@ class Reach:
         followers = self._next.get(name)
         if followers is None:
             provided = self._provided_by(name)
-            self.numbers[name] = len(self._names)
-            self._names.append(name)
+            if name not in self.numbers:
+                self.numbers[name] = len(self._names)
+                self._names.append(name)
             if provided is None:
                 self.unknown |= 1 << self.numbers[name]
             followers = self._next[name] = provided or ()

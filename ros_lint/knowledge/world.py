@@ -7,9 +7,9 @@ layer with a package overrides the others, as when an overlay is sourced.
 from __future__ import annotations
 
 import re
-from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from ros_lint.base.questions import Cell, Memo, RecordedMapping
 from ros_lint.collectors.interfaces.naming import GROUP
 from ros_lint.facts.repositories import NOTHING_AWAITED, ExpectedRepositories
 from ros_lint.knowledge import providers
@@ -20,8 +20,9 @@ from ros_lint.knowledge.provides import NOTHING_KNOWN
 from ros_lint.knowledge.spelling import Spelling, package_name
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Mapping, Sequence
+    from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 
+    from ros_lint.base.questions import Questions, Recorder
     from ros_lint.knowledge import Knowledge
     from ros_lint.knowledge.index import Released
     from ros_lint.knowledge.provides import ContentKind, Known
@@ -63,6 +64,7 @@ class World:
 
     Data files and underlays are read when they are first needed, which may raise KnowledgeError. If several packages of
     the workspace have the same name, or several underlays have the same package, the first one counts.
+    With a ``recorder``, the world can be renewed, and answers of the recorder that ask the world record what they read.
     """
 
     def __init__(
@@ -71,26 +73,62 @@ class World:
         underlays: Sequence[Underlay],
         knowledge: Knowledge,
         awaited: ExpectedRepositories = NOTHING_AWAITED,
+        recorder: Recorder | None = None,
     ) -> None:
         self.underlays = tuple(underlays)
         """Install prefixes below the workspace, topmost first. Plugins must not use this attribute."""
         self.knowledge = knowledge
         """Data about released packages. Plugins must not use this attribute."""
-        self.awaited = awaited
-        """Repositories that the workspace lists, for example in a .repos file, but may not contain."""
-        self._members: dict[str, Member] = {}
-        for member in members:
-            self._members.setdefault(member.name, member)
+        self._recorder = recorder
+        self._questions: Questions = recorder.scope() if recorder else Memo()
+        self._of_awaited = Cell()
+        self._awaited = awaited
+        self._recorded_members = RecordedMapping[Member](recorder) if recorder else None
+        self._members: Mapping[str, Member] = {}
+        self._set_members(members)
         self._installed: dict[str, Installed] = {}
         for underlay in underlays:
             for name, installed in underlay.packages.items():
                 self._installed.setdefault(name, installed)
-        self._providers: dict[tuple[str, str], Providers] = {}
-        self._interfaces: dict[tuple[str, bool], frozenset[str]] = {}
-        self._meant: dict[tuple[str, bool], Suggestion | None] = {}
-        self._near: dict[tuple[str, bool], tuple[str, ...]] = {}
-        self._is_package_or_key: dict[str, tuple[bool, bool]] = {}
         self._reach = Reach(self._provided_directly)
+        self._of_reach = Cell()
+        self._direct = self._find_direct() if recorder else {}
+
+    def _renew(self, members: Iterable[Member], awaited: ExpectedRepositories) -> None:
+        assert self._recorder is not None
+        changed = list(self._set_members(members))
+        if awaited != self._awaited:
+            self._awaited = awaited
+            changed.append(self._of_awaited)
+        if not changed:
+            return
+        self._recorder.change(changed)
+        direct = self._find_direct()
+        if direct != self._direct:
+            self._direct = direct
+            self._reach = Reach(self._provided_directly, self._reach)
+            self._recorder.change([self._of_reach])
+
+    def _find_direct(self) -> Mapping[str, tuple[str, ...] | None]:
+        """Return the names that each package of the workspace provides directly."""
+        return {name: self._provided_directly(name) for name in self._members}
+
+    def _set_members(self, members: Iterable[Member]) -> Iterator[Cell]:
+        by_name: dict[str, Member] = {}
+        for member in members:
+            by_name.setdefault(member.name, member)
+        if self._recorded_members is None:
+            self._members = by_name
+            return iter(())
+        self._members = self._recorded_members
+        return iter(list(self._recorded_members.update(by_name)))
+
+    @property
+    def awaited(self) -> ExpectedRepositories:
+        """Repositories that the workspace lists, for example in a .repos file, but may not contain."""
+        if self._recorder is not None:
+            self._recorder.note(self._of_awaited)
+        return self._awaited
 
     # --- packages -------------------------------------------------------------------------------------------------
 
@@ -137,10 +175,10 @@ class World:
         """
         return not self.awaited.complete or name in self.awaited.uncloned or f"{name}_".startswith(self._uncloned)
 
-    @cached_property
+    @property
     def _uncloned(self) -> tuple[str, ...]:
         """Beginnings of the names of packages that may be in repositories that are not cloned, e.g. "arm_"."""
-        return tuple([f"{package_name(name)}_" for name in self.awaited.uncloned])
+        return self._questions.ask("uncloned", lambda: tuple([f"{package_name(name)}_" for name in self.awaited.uncloned]))
 
     def successor(self, name: str) -> str:
         """Return the existing package that replaces a package of ROS 1 or of a former ROS 2 distribution, "" if there is none."""
@@ -149,10 +187,13 @@ class World:
 
     def is_declared(self, name: str) -> bool:
         """Return whether any package of the workspace declares a name, with any tag."""
-        return name in self._declared
+        return self._questions.ask(("is declared", name), lambda: name in self._declared)
 
-    @cached_property
+    @property
     def _declared(self) -> frozenset[str]:
+        return self._questions.ask("declared", self._find_declared)
+
+    def _find_declared(self) -> frozenset[str]:
         return frozenset([name for member in self._members.values() for names in member.depends.values() for name in names])
 
     def version(self, name: str) -> str | None:
@@ -205,15 +246,16 @@ class World:
         provides the workspace packages in the groups that it depends on. A rosdep key provides the keys of the system
         packages that its own system package depends on.
         """
-        return self._reach.closure(names)
+        starts = tuple(names)
+        return self._questions.ask(("closure", starts), lambda: self._noted_reach.closure(starts))
 
     def closure_without(self, names: Iterable[str], package: str, removed: Container[str]) -> Closure:
         """Return the closure of ``names`` as if ``package`` did not depend directly on the names in ``removed``."""
-        return self._reach.closure_without(names, package, removed)
+        return self._noted_reach.closure_without(names, package, removed)
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
         """Return a shortest chain of dependencies from one of ``starts`` to ``goal``, with both ends; () if there is none."""
-        return self._reach.path(starts, goal)
+        return self._noted_reach.path(starts, goal)
 
     def group_members(self, group: str) -> tuple[str, ...]:
         """Return the packages of all layers that are members of a dependency group (REP 149), sorted."""
@@ -275,17 +317,17 @@ class World:
         for the distribution to check for. Data may be missing for some distributions, but not for the newest one, because
         interfaces are rarely removed.
         """
-        key = (name, everywhere)
-        if key not in self._interfaces:
-            target_contents = self._known(name, "interfaces")
-            all_contents = [target_contents]
-            if name not in self._members and (everywhere or target_contents == NOTHING_KNOWN):
-                all_contents += self.knowledge.known_elsewhere(name, "interfaces")
-            lists = [contents for contents in all_contents if contents != NOTHING_KNOWN]
-            complete = all_contents[-1].complete and all(contents.complete and contents.possible for contents in lists)
-            names = [interface for contents in lists for interface in contents.possible]
-            self._interfaces[key] = frozenset(names if complete else ())
-        return self._interfaces[key]
+        return self._questions.ask(("interfaces", name, everywhere), lambda: self._find_interfaces(name, everywhere=everywhere))
+
+    def _find_interfaces(self, name: str, *, everywhere: bool) -> frozenset[str]:
+        target_contents = self._known(name, "interfaces")
+        all_contents = [target_contents]
+        if name not in self._members and (everywhere or target_contents == NOTHING_KNOWN):
+            all_contents += self.knowledge.known_elsewhere(name, "interfaces")
+        lists = [contents for contents in all_contents if contents != NOTHING_KNOWN]
+        complete = all_contents[-1].complete and all(contents.complete and contents.possible for contents in lists)
+        names = [interface for contents in lists for interface in contents.possible]
+        return frozenset(names if complete else ())
 
     def python_modules(self, name: str) -> Known:
         """Return the top-level Python modules of a package.
@@ -312,20 +354,14 @@ class World:
 
     def by_cmake(self, name: str) -> Providers:
         """Return the packages and keys that provide ``name``, the argument of find_package()."""
-        key = ("cmake", name)
-        if key not in self._providers:
-            self._providers[key] = providers.by_cmake(self, name)
-        return self._providers[key]
+        return self._questions.ask(("cmake", name), lambda: providers.by_cmake(self, name))
 
     def by_macro(self, package: str) -> Providers:
         """Return the packages and rosdep keys that provide the CMake macros of ``package``.
 
         Besides ``package``, these are its alternatives: a vendor package, for example, and the rosdep key of the library.
         """
-        key = ("macro", package)
-        if key not in self._providers:
-            self._providers[key] = providers.by_macro(self, package)
-        return self._providers[key]
+        return self._questions.ask(("macro", package), lambda: providers.by_macro(self, package))
 
     def by_include(self, header: str) -> Providers:
         """Return the packages and keys that provide a header. ``header`` is the path in ``#include <header>``.
@@ -333,24 +369,15 @@ class World:
         A header of the workspace is recognized only if its first folder is named like the package. Therefore callers
         search the files of the workspace first.
         """
-        key = ("include", header)
-        if key not in self._providers:
-            self._providers[key] = providers.by_include(self, header)
-        return self._providers[key]
+        return self._questions.ask(("include", header), lambda: providers.by_include(self, header))
 
     def by_include_folder(self, folder: str) -> Providers:
         """Return the package that provides the headers below an include folder, judging by the name of the folder."""
-        key = ("folder", folder)
-        if key not in self._providers:
-            self._providers[key] = providers.by_include_folder(self, folder)
-        return self._providers[key]
+        return self._questions.ask(("folder", folder), lambda: providers.by_include_folder(self, folder))
 
     def by_import(self, module: str) -> Providers:
         """Return the packages and keys that provide a Python module. ``module`` may be dotted."""
-        key = ("import", module)
-        if key not in self._providers:
-            self._providers[key] = providers.by_import(self, module)
-        return self._providers[key]
+        return self._questions.ask(("import", module), lambda: providers.by_import(self, module))
 
     def packages_with_module(self, module: str) -> tuple[str, ...]:
         """Return the workspace packages whose build script installs a top-level Python module.
@@ -373,34 +400,34 @@ class World:
 
         ``python`` is True if the name is needed to run Python code.
         """
-        key = (name, python)
-        if key not in self._meant:
-            self._meant[key] = providers.meant(self, name, python=python)
-        return self._meant[key]
+        return self._questions.ask(("meant", name, python), lambda: providers.meant(self, name, python=python))
 
     def suggest(self, name: str, *, python: bool = False) -> tuple[str, ...]:
         """Return at most three packages and rosdep keys that resemble an unknown name, the most similar first.
 
         ``python`` is True if the name is needed to run Python code.
         """
-        key = (name, python)
-        if key not in self._near:
-            self._near[key] = providers.near(self, name, python=python)
-        return self._near[key]
+        return self._questions.ask(("near", name, python), lambda: providers.near(self, name, python=python))
 
-    @cached_property
+    @property
     def spelling(self) -> Spelling:
         """All names of packages and rosdep keys, for look-ups of similar names."""
+        return self._questions.ask("spelling", self._find_spelling)
+
+    def _find_spelling(self) -> Spelling:
         name_sources = (self._members, self._installed, self.knowledge.index.names(), self.knowledge.rosdep.names())
         return Spelling(name for names in name_sources for name in names)
 
     # --- inside ---------------------------------------------------------------------------------------------------
 
     def _look_up(self, name: str) -> tuple[bool, bool]:
-        answer = self._is_package_or_key.get(name)
-        if answer is None:
-            answer = self._is_package_or_key[name] = (self.layer(name) is not None, name in self.knowledge.rosdep)
-        return answer
+        return self._questions.ask(("look up", name), lambda: (self.layer(name) is not None, name in self.knowledge.rosdep))
+
+    @property
+    def _noted_reach(self) -> Reach:
+        if self._recorder is not None:
+            self._recorder.note(self._of_reach)
+        return self._reach
 
     def _known(self, name: str, kind: ContentKind) -> Known:
         if name in self._members:
@@ -421,18 +448,29 @@ class World:
             return self.knowledge.index.runtime(name)
         return self.knowledge.names.provided_keys(name) if self.is_key(name) else None
 
-    @cached_property
+    @property
     def _members_of(self) -> Mapping[str, tuple[str, ...]]:
+        return self._questions.ask("members_of", self._find_members_of)
+
+    def _find_members_of(self) -> Mapping[str, tuple[str, ...]]:
         members: dict[str, tuple[str, ...]] = {}
         for member in self._members.values():
             for group in member.groups:
                 members[group] = (*members.get(group, ()), member.name)
         return members
 
-    @cached_property
+    @property
     def _modules(self) -> Mapping[str, tuple[str, ...]]:
+        return self._questions.ask("modules", self._find_modules)
+
+    def _find_modules(self) -> Mapping[str, tuple[str, ...]]:
         packages_of: dict[str, tuple[str, ...]] = {}
         for member in self._members.values():
             for module in member.modules or ():
                 packages_of[module] = (*packages_of.get(module, ()), member.name)
         return packages_of
+
+
+def renew(world: World, members: Iterable[Member], awaited: ExpectedRepositories) -> None:
+    """Replace the packages of the workspace and the awaited repositories of a world with a recorder."""
+    world._renew(members, awaited)

@@ -6,10 +6,12 @@ Facts are the data that collectors extract from one file.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 from ros_lint.base.by_name import ByName
 from ros_lint.base.paths import parent
+from ros_lint.base.questions import Cell, Memo, Questions, Recorder
 from ros_lint.base.tree import Tree
 from ros_lint.facts.build import BuildScript
 from ros_lint.facts.launch import LaunchFile
@@ -22,7 +24,7 @@ from ros_lint.workspace.usage import own_files, public_headers, textual_mentions
 from ros_lint.workspace.usage.package_files import PackageSource, opaque_of
 from ros_lint.workspace.usage.pip_requirements import pip_requirements
 from ros_lint.workspace.usage.resolve import Resolver, resolve
-from ros_lint.workspace.usage.unreached_modules import unreached_modules
+from ros_lint.workspace.usage.unreached_modules import imported_modules, unreached_modules
 
 Progress = Callable[[str, int, int], None]
 """Called with the name of the current step, the number of finished items and the number of all items."""
@@ -46,30 +48,76 @@ class ReadPackage(NamedTuple):
         return PackageSource(package.name, package.path, package.files, self.script, self.facts, self.launch, builds_with)
 
 
-def join_packages(
-    tree: Tree,
-    visible: Sequence[ReadPackage],
-    read_packages: Sequence[ReadPackage],
-    world: World,
-    progress: Progress,
-    *,
-    search: bool,
-) -> Iterator[Package]:
-    """Yield the packages ``read_packages`` as rules read them, with the places that use other packages.
+class Join:
+    """Joins packages. Names are looked up in the visible packages and in ``world``.
 
-    Names are looked up in the packages ``visible`` and in ``world``. ``search`` also searches the text of files for declared
-    names and for modules that are never imported.
+    With a ``recorder``, a package is joined again only if something that its join has read has changed.
     """
-    if not read_packages:
-        return
-    sources = [read_package.source for read_package in visible]
-    resolver = Resolver(sources, world)
-    types = unqualified_types.Types(sources, tree, lambda name: world.closure((name,)))
-    for number, read_package in enumerate(read_packages):
-        progress("analysing", number, len(read_packages))
-        discovered, source = read_package.discovered, read_package.source
+
+    def __init__(self, tree: Tree, world: World, recorder: Recorder | None = None) -> None:
+        self._tree = tree
+        self._world = world
+        self._recorder = recorder
+        self._questions: Questions = recorder.scope() if recorder else Memo()
+        self._resolver = Resolver(world, recorder)
+        self._types = unqualified_types.Types(tree, lambda name: world.closure((name,)), recorder)
+        self._visible: dict[str, tuple[ReadPackage, PackageSource]] = {}
+        self._cells: dict[str, Cell] = {}
+        self._paths: tuple[str, ...] = ()
+        self._of_paths = Cell()
+
+    def renew(self, visible: Sequence[ReadPackage]) -> None:
+        """Take the packages in which names are looked up."""
+        changed = []
+        for read_package in visible:
+            path = read_package.discovered.path
+            if (known := self._visible.get(path)) is None or known[0] is not read_package:
+                self._visible[path] = read_package, read_package.source
+                changed.append(self._cells.setdefault(path, Cell()))
+        paths = tuple([read_package.discovered.path for read_package in visible])
+        if paths != self._paths:
+            self._paths = paths
+            changed.append(self._of_paths)
+        if self._recorder:
+            self._recorder.change(changed)
+        sources = [self._visible[path][1] for path in paths]
+        self._resolver.renew(sources)
+        self._types.renew(sources)
+
+    def packages(self, read_packages: Sequence[ReadPackage], progress: Progress, *, search: bool) -> Iterator[Package]:
+        """Yield the packages as rules read them, with the places that use other packages.
+
+        ``search`` also searches the text of files for declared names and for modules that are never imported.
+        """
+        for number, read_package in enumerate(read_packages):
+            progress("analysing", number, len(read_packages))
+            path = read_package.discovered.path
+            yield self._questions.ask(("join", path), partial(self._join, path, search=search))
+
+    def _own(self, path: str) -> tuple[ReadPackage, PackageSource]:
+        if self._recorder:
+            self._recorder.note(self._cells[path])
+        return self._visible[path]
+
+    def _imported(self, top: str) -> Mapping[str, frozenset[str]]:
+        """Return the full names of the modules below a top-level module that packages import, by path of the package."""
+        return self._questions.ask(("imported", top), lambda: self._find_imported(top))
+
+    def _find_imported(self, top: str) -> Mapping[str, frozenset[str]]:
+        if self._recorder:
+            self._recorder.note(self._of_paths)
+        by_package = ((path, self._questions.ask(("imports", path), partial(self._imports, path))) for path in self._paths)
+        return {path: of_package[top] for path, of_package in by_package if top in of_package}
+
+    def _imports(self, path: str) -> Mapping[str, frozenset[str]]:
+        return imported_modules(self._own(path)[1])
+
+    def _join(self, path: str, *, search: bool) -> Package:
+        tree, world, types = self._tree, self._world, self._types
+        read_package, source = self._own(path)
+        discovered = read_package.discovered
         files = own_files.OwnFiles(source.name, source.files, source.script, source.facts)
-        uses = resolve(source, resolver, files)
+        uses = resolve(source, self._resolver, files)
         declared = read_package.declared
         package = Package(
             name=discovered.name,
@@ -110,11 +158,9 @@ def join_packages(
                 pip_requirements=pip_requirements(tree, package.path, package.files)
                 if any(use.via == "import" for use in undeclared)
                 else frozenset(),
-                unreached_modules=unreached_modules(
-                    tree, source, undeclared, [other for other in sources if other is not source]
-                ),
+                unreached_modules=unreached_modules(tree, source, undeclared, self._imported),
             )
-        yield package
+        return package
 
 
 def _undeclared(package: Package) -> list[Use]:

@@ -8,55 +8,43 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from types import MappingProxyType
 from typing import NamedTuple
 
 from ros_lint.base.paths import is_below, is_outside, join, parent, strip_folder
 from ros_lint.base.paths import resolve as resolve_path
-from ros_lint.base.text import Text, file_start
+from ros_lint.base.questions import Recorder, same
+from ros_lint.base.text import Text
 from ros_lint.base.tree import OverlayTree, Tree, text_of
+from ros_lint.base.watched_tree import WatchedTree
 from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.manifest import conditions
-from ros_lint.facts.launch import LaunchFile
-from ros_lint.facts.manifest import DEPENDENCY_KINDS, ROLES, Manifest, Role
 from ros_lint.facts.repositories import ExpectedRepositories
 from ros_lint.facts.suppressions import Suppression
-from ros_lint.facts.visibility import Opaque
 from ros_lint.knowledge import Knowledge
-from ros_lint.knowledge.providers import importable_modules
 from ros_lint.knowledge.underlays import Underlay
-from ros_lint.knowledge.world import Member, World
-from ros_lint.workspace import launch_modules
-from ros_lint.workspace.build_scripts import evaluate as build_scripts
-from ros_lint.workspace.build_scripts.sources import Parts
+from ros_lint.knowledge.world import World
 from ros_lint.workspace.cache.facts import FactCache
 from ros_lint.workspace.cache.file import NO_CACHE
 from ros_lint.workspace.collect import collect_all
 from ros_lint.workspace.collected import Collected
 from ros_lint.workspace.discovery import repository_lists
 from ros_lint.workspace.discovery.discover import DiscoveredPackage, Discovery, Skipped, discover
-from ros_lint.workspace.discovery.ignore_files import find_ignores
+from ros_lint.workspace.discovery.ignore_files import Ignores, find_ignores
 from ros_lint.workspace.discovery.named_distros import named_distros
-from ros_lint.workspace.join import Progress, ReadPackage, join_packages, unusable_package
-from ros_lint.workspace.model import Declared, Package, Workspace
+from ros_lint.workspace.join import Progress, ReadPackage, unusable_package
+from ros_lint.workspace.model import Package, Workspace
+from ros_lint.workspace.reading import Read, declared_by, unchecked
 from ros_lint.workspace.side_by_side import hidden_namesakes, workspace_of
+from ros_lint.workspace.state import DistroData, State
 from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
-
-_NO_ROLE = Role(0)
 
 _MOST_CONTEXT = 20_000
 """Maximum number of folders outside packages that are searched for context packages.
 
 Context packages are not checked, but the checked packages may depend on them.
 """
-
-
-class DistroData(NamedTuple):
-    """A distribution to check for, with the data about its packages."""
-
-    target: TargetDistro
-    knowledge: Knowledge
-    underlays: tuple[Underlay, ...] = ()
 
 
 class _Found(NamedTuple):
@@ -80,15 +68,6 @@ class _Found(NamedTuple):
         return any(export.tag == "build_type" and conditions.of(export) for export in exports)
 
 
-class _Read(NamedTuple):
-    """The packages of a tree with the facts (extracted data) of their files, for one distribution."""
-
-    packages: list[ReadPackage]
-    evaluation: build_scripts.Evaluation
-    launch: list[tuple[LaunchFile, ...]]
-    """The launch files of each package. They include references that apply only to other distributions."""
-
-
 class Loader:
     """Loads the packages below ``roots`` of a tree, and the packages below ``context``, on which they may depend.
 
@@ -110,6 +89,7 @@ class Loader:
         jobs: int = 0,
         cache: FactCache | None = None,
         progress: Progress = lambda step, finished, total: None,
+        again: bool = False,
     ) -> None:
         self.tree = tree
         self.pinned: dict[str, bytes] = {}
@@ -123,7 +103,17 @@ class Loader:
         self._cache = cache or FactCache(NO_CACHE)
         self._progress = progress
         self._collected: dict[str, Collected] = {}
-        self._named_distros: tuple[NamedDistro, ...] | None = None
+        self._recorder = Recorder() if again else None
+        self._watched = WatchedTree(tree, self._recorder) if self._recorder else None
+        self._states: list[State] = []
+        self._facts: dict[str, Collected] = {}
+        """The facts of the files of the last load, by path."""
+        self._overlaid: dict[str, tuple[bytes, Collected]] = {}
+        self._touched: set[str] = set()
+        """Paths that may have changed since the last load."""
+        self._found: _Found | None = None
+        self._packages: dict[str, DiscoveredPackage] = {}
+        """The packages that were found last, by path."""
 
     def load(self, changed: Mapping[str, bytes] | None = None, *, sources: bool = True) -> Workspace:
         """Return the workspace for the first distribution. ``changed`` has new contents of files, by path.
@@ -139,19 +129,32 @@ class Loader:
 
     def _load(self, changed: Mapping[str, bytes], sources: bool) -> Iterator[Workspace]:
         """Yield the workspace for each distribution. ``changed`` has new contents of files, by path."""
-        tree = OverlayTree(self.tree, changed) if changed else self.tree
+        tree: Tree = OverlayTree(self.tree, changed) if changed else self.tree
+        recorder = self._recorder if sources else None
+        if recorder and self._watched:
+            self._touched |= self._watched.lay(self.tree, changed)
+            tree = self._watched
+        if not (recorder and self._states):
+            self._states = [State(tree, data, recorder) for data in self._distros]
+        touched, self._touched = self._touched, set()
         self._progress("looking for packages", 0, 0)
         found: _Found | None = None
-        collected: Mapping[str, Collected] = {}
-        read: _Read | None = None
-        for data in self._distros:
+        read: Read | None = None
+        for state in self._states:
+            state.touched |= touched
             if found is None or found.depends_on_distro:
-                found = self._find(tree, data.target)
-                collected = self._collect(found.packages, changed) if sources else {}
+                found = state.questions.ask("find", partial(self._find, tree, state.data.target))
+                if sources:
+                    self._collect(found, changed, touched)
+            state.take(found.packages)
             if sources:
-                read = self._read(tree, found.packages, collected, data.target, read)
-            packages = read.packages if read else [_manifest_only(package, data.target) for package in found.packages]
-            yield self._join(tree, found, collected, packages, data, sources)
+                read = state.reading.read(found.packages, self._facts, state.touched_packages(), read)
+                yield self._join(tree, found, read.packages, state, sources=True)
+                read = None if recorder else read
+            else:
+                yield self._join(
+                    tree, found, [_manifest_only(package, state.data.target) for package in found.packages], state, sources=False
+                )
 
     def _find(self, tree: Tree, target: TargetDistro) -> _Found:
         """Return the packages that colcon finds for a distribution."""
@@ -160,64 +163,59 @@ class Loader:
         files = [join(package.path, file) for package in packages for file in package.files]
         lists = repository_lists.find_lists(tree, roots, (*files, *discovery.repository_lists))
         submodules = repository_lists.submodules(tree, lists)
-        packages = _without_submodules(packages, submodules)
+        packages = [self._known(package) for package in _without_submodules(packages, submodules)]
         places = [(package.name, package.path) for package in packages]
         unread_lists = tuple(repository_lists.unreadable_lists(tree, lists))
         expected = repository_lists.expected_repositories(tree, lists, submodules, places)._replace(complete=not unread_lists)
         return _Found(roots, discovery, packages, lists, unread_lists, expected)
 
-    def _join(
-        self,
-        tree: Tree,
-        found: _Found,
-        collected: Mapping[str, Collected],
-        read_packages: Sequence[ReadPackage],
-        data: DistroData,
-        sources: bool,
-    ) -> Workspace:
+    def _join(self, tree: Tree, found: _Found, read_packages: Sequence[ReadPackage], state: State, sources: bool) -> Workspace:
         """Return the workspace of the packages.
 
         If the repository contains several workspaces with packages of equal names, the result has a further Workspace object
         for each of them, see :meth:`Workspace.seen_from`.
         """
         rejected_manifests = found.discovery.rejected
-        world = _world(read_packages, rejected_manifests, data, found.expected)
         hidden = hidden_namesakes(
             [
                 *((package.name, package.path) for package in found.packages),
                 *((manifest.name, parent(manifest.path)) for manifest in rejected_manifests),
             ]
         )
+        state.begin(hidden)
         shared = [read for read in read_packages if not hidden or workspace_of(read.discovered.path) not in hidden]
-        packages = tuple(join_packages(tree, read_packages, shared, world, self._progress, search=sources))
+        world, join = state.view(None, read_packages, rejected_manifests, found.expected)
+        packages = tuple(join.packages(shared, self._progress, search=sources))
         worlds: dict[str, World] = {}
         for folder, paths in hidden.items():
             visible = [read for read in read_packages if read.discovered.path not in paths]
             own = [read for read in visible if workspace_of(read.discovered.path) == folder]
             rejected = [manifest for manifest in rejected_manifests if parent(manifest.path) not in paths]
-            worlds[folder] = _world(visible, rejected, data, found.expected)
-            packages += tuple(join_packages(tree, visible, own, worlds[folder], self._progress, search=sources))
+            worlds[folder], join = state.view(folder, visible, rejected, found.expected)
+            packages += tuple(join.packages(own, self._progress, search=sources))
         packages = tuple(sorted(packages, key=lambda package: package.path)) if hidden else packages
         unusable = tuple(unusable_package(manifest) for manifest in rejected_manifests if not self._exclude(manifest.path))
-        ignores = find_ignores(tree, ((package.path, package.files) for package in found.packages))
+        ignores = state.questions.ask("ignores", lambda: _ignores(tree, state.found))
         unread_files = (
             *found.discovery.not_checked,
             *found.unread_lists,
             *ignores.not_checked,
-            *_unreadable(collected),
+            *state.reading.unreadable(),
         )
         not_checked = tuple(dict.fromkeys((*unread_files, *_unchecked_scripts(read_packages))))
 
-        named = self._distros_named_in(tree, found.roots)
+        named = state.questions.ask(("distros", found.roots), partial(self._distros_named_in, tree, found.roots))
         untracked = frozenset(_untracked(tree, packages))
 
         def seen(world: World, without: Container[str] = (), views: Mapping[str, Workspace] = MappingProxyType({})) -> Workspace:
             kept = [tuple([package for package in group if package.path not in without]) for group in (packages, unusable)]
             return Workspace(
-                kept[0], kept[1], world, data.target, not_checked, found.lists, ignores.patterns, views, named, untracked
+                kept[0], kept[1], world, state.data.target, not_checked, found.lists, ignores.patterns, views, named, untracked
             )
 
-        return seen(world, (), {folder: seen(of_folder, hidden[folder]) for folder, of_folder in worlds.items()})
+        views = {folder: seen(of_folder, hidden[folder]) for folder, of_folder in worlds.items()}
+        workspace = seen(world, (), views)
+        return state.handles.renew(workspace) if state.handles else workspace
 
     def pin(self, paths: Iterable[str]) -> None:
         """Read some files again and fix their contents for all further loads, even if the files change on disk.
@@ -228,25 +226,34 @@ class Loader:
             with suppress(OSError):
                 self.pinned[path] = self._original_tree.read(path)
         self.tree = OverlayTree(self._original_tree, self.pinned)
-        self._collected = dict(self._collected_with(self.pinned))
+        self.forget(self.pinned)
 
-    def forget(self, paths: Iterable[str]) -> bool:
-        """Discard the facts (extracted data) of some files, so that the next load reads the files again.
+    def unpin(self) -> None:
+        """Read the files that :meth:`pin` has read from the disk again."""
+        self.tree, pinned = self._original_tree, self.pinned
+        self.pinned = {}
+        self.forget(pinned)
 
-        Returns False if the loader had no facts of one of the files, because data of this file may then be kept elsewhere.
-        """
-        forgotten = [self._collected.pop(path, None) for path in paths]
-        return None not in forgotten
+    def forget(self, paths: Iterable[str]) -> None:
+        """Record that files or folders may have changed, appeared or disappeared, so that the next load reads them again."""
+        doubted = set(paths)
+        if self._watched:
+            self._watched.lay(self.tree, self._watched.overlay)
+            doubted = self._watched.doubt(doubted)
+        self._touched |= doubted
+        for path in doubted:
+            self._collected.pop(path, None)
+            self._overlaid.pop(path, None)
 
     def text(self, path: str) -> Text | None:
         """Return the text of a file, None if the file cannot be read."""
         return text_of(self.tree, path)
 
-    def suppressions(self, changed: Mapping[str, bytes] | None = None) -> Iterator[Suppression]:
-        """Yield the suppression comments in all files of the loaded packages."""
-        collected = self._collected_with(changed or {})
-        for path in sorted(collected):
-            yield from collected[path].suppressions
+    def suppressions(self) -> Iterator[Suppression]:
+        """Yield the suppression comments in all files of the packages of the last load."""
+        by_path = {path: comments for state in self._states for path, comments in state.reading.suppressions()}
+        for path in sorted(by_path):
+            yield from by_path[path]
 
     def _discover(self, tree: Tree, target: TargetDistro) -> tuple[tuple[str, ...], Discovery]:
         """Return the folders that were searched, and the packages in them.
@@ -271,115 +278,53 @@ class Loader:
 
     def _distros_named_in(self, tree: Tree, roots: Sequence[str]) -> tuple[NamedDistro, ...]:
         """Return the distributions that the repository builds for."""
-        if self._named_distros is None:
-            known = self._distros[0].knowledge.distributions
-            self._named_distros = named_distros(tree, roots, known) if known else ()
-        return self._named_distros
+        known = self._distros[0].knowledge.distributions
+        return named_distros(tree, roots, known) if known else ()
+
+    def _known(self, package: DiscoveredPackage) -> DiscoveredPackage:
+        """Return the package as found last if nothing has changed, else the package itself."""
+        before = self._packages.get(package.path)
+        if before is not None and same(before, package):
+            return before
+        self._packages[package.path] = package
+        return package
 
     def _without_excluded(self, package: DiscoveredPackage) -> DiscoveredPackage:
         return package._replace(files=tuple(file for file in package.files if not self._exclude(join(package.path, file))))
 
-    def _collect(self, discovered: Sequence[DiscoveredPackage], changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
-        paths = [join(package.path, file) for package in discovered for file in package.files if kind_of(file)]
+    def _collect(self, found: _Found, changed: Mapping[str, bytes], touched: Iterable[str]) -> None:
+        """Bring the facts of the files of the found packages up to date. ``changed`` has new contents of files, by path."""
+        if found is self._found:
+            paths = [path for path in touched if path in self._facts]
+        else:
+            paths = [join(package.path, file) for package in found.packages for file in package.files if kind_of(file)]
         if new := [path for path in paths if path not in self._collected]:
             self._collected |= collect_all(
                 self.tree, new, self._jobs, self._cache, lambda finished: self._progress("reading", finished, len(new))
             )
-        return self._collected_with(changed)
-
-    def _collected_with(self, changed: Mapping[str, bytes]) -> Mapping[str, Collected]:
-        paths = [path for path in changed if path in self._collected]
-        if not paths:
-            return self._collected
-        fresh = collect_all(OverlayTree(self.tree, changed), paths, 1, FactCache(NO_CACHE), lambda finished: None)
-        return {**self._collected, **fresh}
-
-    def _read(
-        self,
-        tree: Tree,
-        discovered: Sequence[DiscoveredPackage],
-        collected: Mapping[str, Collected],
-        target: TargetDistro,
-        earlier: _Read | None,
-    ) -> _Read:
-        """Return the packages with the facts (extracted data) of their files, for a distribution.
-
-        ``earlier`` is the result for another distribution, which is reused as far as possible.
-        """
-        of_package = [
-            {file: collected[path] for file in package.files if (path := join(package.path, file)) in collected}
-            for package in discovered
-        ]
-        declared_by = [_declared(package.manifest, target) for package in discovered]
-        parts = [
-            Parts(
-                package,
-                {file: c.commands for file, c in files.items() if c.commands is not None},
-                _kinds(declared),
-            )
-            for package, declared, files in zip(discovered, declared_by, of_package, strict=True)
-        ]
-        evaluation = build_scripts.evaluate(tree, parts, target.distro, earlier.evaluation if earlier else None)
-        if earlier and evaluation.helpers is earlier.evaluation.helpers:  # all scripts are the same
-            launch = earlier.launch
+        laid = [path for path, data in changed.items() if path in self._collected and self._data_laid(path) != data]
+        fresh = collect_all(OverlayTree(self.tree, changed), laid, 1, FactCache(NO_CACHE), lambda finished: None)
+        self._overlaid |= {path: (changed[path], facts) for path, facts in fresh.items()}
+        facts = {path: self._overlaid[path][1] if path in changed else self._collected[path] for path in paths}
+        before = self._facts
+        facts = {path: before[path] if path in before and same(before[path], new) else new for path, new in facts.items()}
+        if found is self._found:
+            self._facts |= facts
         else:
-            launch = launch_modules.resolve_modules(
-                tree,
-                [
-                    launch_modules.LaunchPackage(
-                        package.name,
-                        package.path,
-                        package.files,
-                        script,
-                        tuple([c.launch for c in files.values() if c.launch is not None]),
-                    )
-                    for package, script, files in zip(discovered, evaluation.scripts, of_package, strict=True)
-                ],
-            )
-        packages = [
-            ReadPackage(
-                package,
-                declared,
-                script,
-                {file: c.facts for file, c in files.items() if c.facts is not None},
-                tuple([launch_modules.for_distro(target.distro, file) for file in launch_files]),
-                tuple([path for c in files.values() for path in c.machine_paths]),
-            )
-            for package, declared, script, files, launch_files in zip(
-                discovered, declared_by, evaluation.scripts, of_package, launch, strict=True
-            )
-        ]
-        return _Read(packages, evaluation, launch)
+            self._found, self._facts = found, facts
+
+    def _data_laid(self, path: str) -> bytes | None:
+        """Return the contents in the overlay for which a file has facts, None if it has none."""
+        laid = self._overlaid.get(path)
+        return laid[0] if laid else None
+
+
+def _ignores(tree: Tree, packages: Iterable[DiscoveredPackage]) -> Ignores:
+    return find_ignores(tree, ((package.path, package.files) for package in packages))
 
 
 def _manifest_only(package: DiscoveredPackage, target: TargetDistro) -> ReadPackage:
-    return ReadPackage(package, _declared(package.manifest, target), None, {}, ())
-
-
-def _world(
-    read_packages: Sequence[ReadPackage], rejected: Sequence[Manifest], data: DistroData, expected: ExpectedRepositories
-) -> World:
-    return World(tuple(_members(read_packages, rejected, data.target)), data.underlays, data.knowledge, expected)
-
-
-def _members(read_packages: Sequence[ReadPackage], rejected: Sequence[Manifest], target: TargetDistro) -> Iterator[Member]:
-    for package, declared, script, *_ in read_packages:
-        modules = importable_modules(script, package.files) if script else None
-        yield _member(package.name, package.manifest, declared)._replace(modules=modules)
-    for manifest in rejected:
-        if manifest.name:
-            yield _member(manifest.name, manifest, _declared(manifest, target))
-
-
-def _declared(manifest: Manifest | None, target: TargetDistro) -> tuple[Declared, ...]:
-    """Return each dependency tag of a package.xml whose condition is not false, with group, conflict and replace tags."""
-    result = []
-    context = target.context
-    for depend in manifest.depends if manifest else ():
-        truth = conditions.truth(depend.condition, context) if depend.condition else True
-        if truth is not False:
-            result.append(Declared(depend, ROLES.get(depend.tag, _NO_ROLE), truth is True))
-    return tuple(result)
+    return ReadPackage(package, declared_by(package.manifest, target), None, {}, ())
 
 
 def _without_submodules(discovered: Sequence[DiscoveredPackage], folders: Sequence[str]) -> list[DiscoveredPackage]:
@@ -390,27 +335,6 @@ def _without_submodules(discovered: Sequence[DiscoveredPackage], folders: Sequen
         skipped = tuple(Skipped(strip_folder(package.path, folder), "the submodule is not cloned") for folder in submodules)
         result.append(package._replace(unvisited=(*package.unvisited, *skipped)) if skipped else package)
     return result
-
-
-def _member(name: str, manifest: Manifest | None, declared: Sequence[Declared]) -> Member:
-    groups = tuple(d.name for d in declared if d.depend.tag == "member_of_group")
-    return Member(name, manifest.version if manifest else "", _kinds(declared), groups)
-
-
-def _kinds(declared: Sequence[Declared]) -> dict[str, tuple[str, ...]]:
-    names: dict[str, list[str]] = {}
-    for tag in declared:
-        for kind in DEPENDENCY_KINDS[tag.depend.tag].letters:
-            names.setdefault(kind, []).append(tag.depend.name)
-    return {kind: tuple(of_kind) for kind, of_kind in names.items()}
-
-
-def _unreadable(collected: Mapping[str, Collected]) -> Iterator[UnreadFile]:
-    for path, c in sorted(collected.items()):
-        if c.unreadable:
-            yield UnreadFile(path, c.unreadable, file_start(path))
-        for fact in (c.facts, c.launch):
-            yield from _unchecked(fact.opaque if fact is not None else ())
 
 
 def _untracked(tree: Tree, packages: Iterable[Package]) -> Iterator[str]:
@@ -425,9 +349,4 @@ def _untracked(tree: Tree, packages: Iterable[Package]) -> Iterator[str]:
 def _unchecked_scripts(read_packages: Sequence[ReadPackage]) -> Iterator[UnreadFile]:
     for read_package in read_packages:
         if read_package.script is not None:
-            yield from _unchecked(read_package.script.opaque)
-
-
-def _unchecked(opaque: Iterable[Opaque]) -> Iterator[UnreadFile]:
-    """Yield the places that ros-lint does not check because of one of its limits or a bug in it."""
-    yield from (UnreadFile(place.span.path, place.reason, place.span) for place in opaque if place.unchecked)
+            yield from unchecked(read_package.script.opaque)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base import gitignore
 from ros_lint.base.by_name import ByName
 from ros_lint.base.paths import join, resolve, strip_folder
+from ros_lint.base.questions import Memo, Questions
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.manifest import conditions
 from ros_lint.facts.build import ENDS, NOTHING_BUILT, BuildScript, UninstalledImport
@@ -242,6 +242,7 @@ class Workspace:
         views: Mapping[str, Workspace] = MappingProxyType({}),
         named_distros: tuple[NamedDistro, ...] = (),
         untracked: frozenset[str] = frozenset(),
+        memo: Questions | None = None,
     ) -> None:
         self.packages = packages
         """The packages that colcon finds, sorted by path. Several packages may have the same name."""
@@ -264,9 +265,10 @@ class Workspace:
         self._ignores = ignores
         self._views = views
         self._untracked = untracked
+        self._by_name: Mapping[str, tuple[Package, ...]] = packages_by_name(packages)
         self.named_distros = named_distros
         """The distributions that the repository builds for, as far as its files name them."""
-        self.memo: dict[object, Any] = {}
+        self.memo: Questions = memo or Memo()
         """Cached results of functions decorated with ``cached_by_workspace`` or ``cached_by_package``. Not for use by rules."""
 
     def seen_from(self, package: Package) -> Workspace:
@@ -277,13 +279,10 @@ class Workspace:
         """
         return self._views.get(workspace_of(package.path), self) if self._views else self
 
-    @cached_property
+    @property
     def by_name(self) -> Mapping[str, tuple[Package, ...]]:
         """The packages, by the name in ``package.xml``."""
-        packages: dict[str, tuple[Package, ...]] = {}
-        for package in self.packages:
-            packages[package.name] = (*packages.get(package.name, ()), package)
-        return packages
+        return self._by_name
 
     def called(self, name: str) -> tuple[Package, ...]:
         """Return the packages called ``name`` in ``package.xml``; if there are none, the packages that colcon calls ``name``."""
@@ -326,9 +325,12 @@ class Workspace:
         """
         return resolve(package.path, path) in self._untracked
 
-    @cached_property
+    @property
     def loaded(self) -> Mapping[str, frozenset[str]]:
         """Component classes that launch files load, by the name of the package that provides the class."""
+        return self.memo.ask("loaded", self._find_loaded)
+
+    def _find_loaded(self) -> Mapping[str, frozenset[str]]:
         classes: dict[str, frozenset[str]] = {}
         for package in self.packages:
             for launch in package.launch:
@@ -336,3 +338,11 @@ class Workspace:
                     if reference.kind == "component":
                         classes[reference.package] = classes.get(reference.package, frozenset()) | {reference.name}
         return classes
+
+
+def packages_by_name(packages: Iterable[Package]) -> Mapping[str, tuple[Package, ...]]:
+    """Return the packages by the name in ``package.xml``."""
+    result: dict[str, tuple[Package, ...]] = {}
+    for package in packages:
+        result[package.name] = (*result.get(package.name, ()), package)
+    return result

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.analysis.dependencies.tags import add_dependency, tag_for, tags_for
 from ros_lint.analysis.finding import Fix
 from ros_lint.analysis.graph.dependency_graph import dependency_graph
-from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.analysis.memo import cached_by_name
 from ros_lint.base.suggestions import and_list
 
 if TYPE_CHECKING:
@@ -119,20 +119,9 @@ class _Availability(NamedTuple):
     """Distributions to check for that lack the name, if other active distributions have it; else ()."""
 
 
+@cached_by_name
 def _availability(workspace: Workspace, name: str) -> _Availability:
-    known = _availabilities(workspace)
-    if name not in known:
-        known[name] = _find_availability(workspace, name)
-    return known[name]
-
-
-@cached_by_workspace
-def _availabilities(workspace: Workspace) -> dict[str, _Availability]:  # noqa: ARG001  (the key of the cache)
-    """Return the cache of a workspace: whether packages and rosdep keys are available in its distributions, by name."""
-    return {}
-
-
-def _find_availability(workspace: Workspace, name: str) -> _Availability:
+    """Return whether a package or rosdep key is available in the distributions of a workspace."""
     world, target = workspace.world, workspace.target
     if world.layer(name) in ("workspace", "underlay"):
         return _Availability()

@@ -66,11 +66,21 @@ class IncludeResolver:
         self._takes: dict[str, AcceptedArguments] = {}
         self._owns: dict[str, _Own] = {}
         self._sets: dict[str, Mapping[str, tuple[str, ...]]] = {}
+        self._launch: list[tuple[LaunchFile, ...]] = []
         for package in packages:
+            self._launch.append(package.launch)
             for file, path in installed_below_share(package, package.launch):
                 linked = InstalledLaunchFile(package, file, path)
                 self._by_path.setdefault((package.name, path), []).append(linked)
                 self._places.setdefault(file.path, linked)
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether both resolvers have equal launch files at equal places, and so give the same answers."""
+        if not isinstance(other, IncludeResolver):
+            return False
+        return (self._launch, self._by_path, self._places) == (other._launch, other._by_path, other._places)
+
+    __hash__ = None  # type: ignore[assignment]
 
     def target(self, value: LaunchValue | None, source: LaunchFile) -> InstalledLaunchFile | None:
         """Return the launch file of the workspace to which an include in ``source`` refers.

@@ -53,7 +53,7 @@ def run(options: Mapping[str, Any]) -> int:
             elif request.settings["fix"] or request.settings["diff"]:
                 from ros_lint.cli.commands import fix  # noqa: PLC0415
 
-                report, code = fix.run(open_session(request, progress.update))
+                report, code = fix.run(open_session(request, progress.update, again=True))
             else:
                 report = _report(request, progress)
             if request.settings["since"]:

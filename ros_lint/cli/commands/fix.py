@@ -35,7 +35,7 @@ def run(session: Session) -> tuple[Report, int]:
     )
 
     def report(changed: Mapping[str, bytes]) -> Report:
-        return check_workspaces(session, trials.trial(changed).workspaces, folders, warnings, changed)
+        return check_workspaces(session, session.loader.load_all(changed), folders, warnings)
 
     result = fix(trials)
     for issue, reason in result.skipped:

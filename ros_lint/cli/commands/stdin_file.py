@@ -29,5 +29,5 @@ def check(request: Request, progress: Progress) -> tuple[Report, dict[str, bytes
     path = os.path.relpath(os.path.join(os.path.realpath(folder or "."), name), request.base).replace(os.sep, "/")
     unsaved = {path: sys.stdin.buffer.read()}
     session = open_session(request, progress)
-    report = check_workspaces(session, session.loader.load_all(unsaved), session.roots, changed=unsaved)
+    report = check_workspaces(session, session.loader.load_all(unsaved), session.roots)
     return report._replace(issues=tuple([issue for issue in report.issues if issue.finding.span.path == path])), unsaved

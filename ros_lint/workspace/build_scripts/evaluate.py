@@ -6,12 +6,15 @@ CMake code of a package with CONFIG_EXTRAS runs in its dependents, so such a pac
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.by_name import ByName
 from ros_lint.base.paths import join
+from ros_lint.base.questions import Cell, Memo, Questions, Recorder
+from ros_lint.base.questions import same as same_value
 from ros_lint.base.text import file_start
 from ros_lint.base.tree import Tree
 from ros_lint.collectors.cmake import calls as cmake_calls
@@ -46,36 +49,147 @@ class Evaluation(NamedTuple):
     """
 
 
-def evaluate(tree: Tree, packages: Sequence[Parts], distro: str, earlier: Evaluation | None = None) -> Evaluation:
-    """Return the evaluated build scripts of the packages for the distribution ``distro``.
+class Scripts:
+    """Evaluates the build scripts of packages for the distribution ``distro``.
 
-    ``earlier`` is an evaluation of the same packages for another distribution. Its result is reused for each script that does
-    not depend on the distribution.
+    With a ``recorder``, a script is evaluated again only if something that its evaluation has read has changed.
     """
-    same = _same_scripts(packages, distro, earlier) if earlier else {}
-    if earlier and len(same) == len(packages):
-        return Evaluation(packages, [same[number] for number in range(len(packages))], earlier.helpers)
-    result: list[BuildScript | None] = [None] * len(packages)
-    helpers: dict[str, dict[str, Helper]] = {}
-    if earlier and same:
-        helpers = {folder: dict(by_name) for folder, by_name in earlier.helpers.items()}
-    surroundings = Surroundings(tree)
-    in_order = [*_helping(packages), *(number for number, parts in enumerate(packages) if not _helps(parts))]
-    for number in in_order:
-        parts = packages[number]
-        if number in same:
-            result[number] = same[number]
-            continue
+
+    def __init__(self, tree: Tree, distro: str, recorder: Recorder | None = None) -> None:
+        self._tree = tree
+        self._distro = distro
+        self._recorder = recorder
+        self._questions: Questions = recorder.scope() if recorder else Memo()
+        self._surroundings = Surroundings(tree, self._questions)
+        self._parts: dict[str, Parts] = {}
+        self._cells: dict[str, Cell] = {}
+        self._order: list[str] = []
+        self._of_order = Cell()
+        self._of_helpers: dict[str, Cell] = {}
+        """The input for each name of a package with CONFIG_EXTRAS."""
+        self._helpers: dict[str, dict[str, Helper]] = {}
+        self._last: dict[str, tuple[Parts, Helper]] = {}
+        """The packages with CONFIG_EXTRAS, by path."""
+
+    def evaluate(self, packages: Sequence[Parts], earlier: Evaluation | None = None) -> Evaluation:
+        """Return the evaluated build scripts of the packages.
+
+        ``earlier`` is an evaluation of the same packages for another distribution. Its result is reused for each script that does
+        not depend on the distribution.
+        """
+        same = _same_scripts(packages, self._distro, earlier) if earlier else {}
+        if earlier and len(same) == len(packages):
+            return Evaluation(packages, [same[number] for number in range(len(packages))], earlier.helpers)
+        result: list[BuildScript | None] = [None] * len(packages)
+        self._helpers = {}
+        if earlier and same:
+            self._helpers = {folder: dict(by_name) for folder, by_name in earlier.helpers.items()}
+        helping = list(_helping(packages))
+        self._begin(packages, [packages[number].package.path for number in helping])
+        in_order = [*helping, *(number for number, parts in enumerate(packages) if not parts.helps)]
+        for number in in_order:
+            parts = packages[number]
+            if number in same:
+                result[number] = same[number]
+                continue
+            path = parts.package.path
+            if parts.of_cmake:
+                self._helpers.setdefault(workspace_of(path), {})
+            result[number], helper = self._questions.ask(("script", path), partial(self._evaluate, path))
+            if parts.helps:
+                self._keep(parts, helper)
+        return Evaluation(packages, result, self._helpers)
+
+    def _begin(self, packages: Sequence[Parts], order: list[str]) -> None:
+        """Take the new parts of the packages, and the ``order`` of the packages with CONFIG_EXTRAS."""
+        changed = []
+        for parts in packages:
+            path = parts.package.path
+            before = self._parts.get(path)
+            if before is not parts and not (before and same_value(before, parts)):
+                self._parts[path] = parts
+                changed.append(self._cells.setdefault(path, Cell()))
+        if order != self._order:
+            self._order = order
+            changed.append(self._of_order)
+        gone = self._last.keys() - set(order)
+        changed += [self._of_helper(self._last.pop(path)[0].package.name) for path in gone]
+        if self._recorder:
+            self._recorder.change(changed)
+
+    def _keep(self, parts: Parts, helper: Helper | None) -> None:
+        """Make the CMake code of a package with CONFIG_EXTRAS visible in the packages that are evaluated after it."""
+        package = parts.package
+        parts = self._parts[package.path]
+        before = self._last.pop(package.path, None)
+        if before and helper and before[0] is parts and same_value(before[1].script, helper.script):
+            helper = before[1]
+        elif self._recorder and (before or helper):
+            self._recorder.change([self._of_helper(package.name)])
+        if helper:
+            self._last[package.path] = parts, helper
+            self._helpers[workspace_of(package.path)][package.name] = helper
+
+    def _of_helper(self, name: str) -> Cell:
+        return self._of_helpers.setdefault(name, Cell())
+
+    def _evaluate(self, path: str) -> tuple[BuildScript | None, Helper | None]:
+        """Return the evaluated script of the package at ``path``, and the package itself if its CMake code runs in dependents."""
+        parts = self._parts[path]
+        if self._recorder:
+            self._recorder.note(self._cells[path])
+            if parts.helps:
+                self._recorder.note(self._of_order)
+        helper: Helper | None = None
         try:
-            if "CMakeLists.txt" in parts.commands and parts.package.type != "ros.ament_python":
-                result[number] = with_files(
-                    tree, parts.package, parts.commands, _cmake(tree, parts, distro, helpers, surroundings)
-                )
-            elif script := _python(tree, parts.package):
-                result[number] = with_files(tree, parts.package, parts.commands, script)
+            if parts.of_cmake:
+                script, helper = self._cmake(parts)
+                return with_files(self._tree, parts.package, parts.commands, script), helper
+            python = _python(self._tree, parts.package)
+            return with_files(self._tree, parts.package, parts.commands, python) if python else None, None
         except Exception as error:  # a bug in ros-lint that one script triggers must not stop the evaluation of the others
-            result[number] = _failed(parts, FAILED.format(f"{type(error).__name__}: {error}"))
-    return Evaluation(packages, result, helpers)
+            return _failed(parts, FAILED.format(f"{type(error).__name__}: {error}")), helper
+
+    def _cmake(self, parts: Parts) -> tuple[BuildScript, Helper | None]:
+        from ros_lint.collectors.cmake import evaluate as cmake  # noqa: PLC0415
+        from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415
+        from ros_lint.collectors.cmake.released_macros import opaque_packages  # noqa: PLC0415
+
+        inputs = sources(self._tree, parts, self._surroundings)
+        own_helpers = self._helpers[workspace_of(parts.package.path)]
+        others = [of_workspace for of_workspace in self._helpers.values() if of_workspace is not own_helpers]
+        visible: Mapping[str, Helper] = ChainMap(own_helpers, *others)
+        if self._recorder:
+            visible = _RecordedHelpers(visible, self._recorder, self._of_helper)
+        script = cmake.evaluate(inputs, self._distro, visible)
+        helps = script.exports.config_extras and parts.package.name not in opaque_packages()
+        helper = Helper(inputs, script) if helps else None
+        folder = parts.package.path
+        calls = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
+        return script._replace(commands=script.commands._replace(calls=ByName(chain.from_iterable(calls)))), helper
+
+
+class _RecordedHelpers(Mapping[str, "Helper"]):
+    """The visible packages with CONFIG_EXTRAS, by name. Each look-up is recorded."""
+
+    def __init__(self, helpers: Mapping[str, Helper], recorder: Recorder, cell: Callable[[str], Cell]) -> None:
+        self._helpers = helpers
+        self._recorder = recorder
+        self._cell = cell
+
+    def __getitem__(self, name: str) -> Helper:
+        self._recorder.note(self._cell(name))
+        return self._helpers[name]
+
+    def __contains__(self, name: object) -> bool:
+        self._recorder.note(self._cell(str(name)))
+        return name in self._helpers
+
+    def __iter__(self) -> Iterator[str]:
+        raise NotImplementedError("the evaluation looks up names only")
+
+    def __len__(self) -> int:
+        raise NotImplementedError("the evaluation looks up names only")
 
 
 def _same_scripts(packages: Sequence[Parts], distro: str, earlier: Evaluation) -> dict[int, BuildScript | None]:
@@ -89,32 +203,9 @@ def _same_scripts(packages: Sequence[Parts], distro: str, earlier: Evaluation) -
         before, script = scripts.get(parts.package.path, (None, None))
         if parts == before and (script is None or script.distros is None or distro in script.distros):
             same[number] = script
-        elif _helps(parts) or (before is not None and _helps(before)):
+        elif parts.helps or (before is not None and before.helps):
             return {}
     return same if scripts.keys() == {parts.package.path for parts in packages} else {}
-
-
-def _cmake(
-    tree: Tree, parts: Parts, distro: str, helpers: dict[str, dict[str, Helper]], surroundings: Surroundings
-) -> BuildScript:
-    """Return the evaluated CMakeLists.txt of a package.
-
-    A package with CONFIG_EXTRAS is added to ``helpers``, because its CMake code runs in dependents. The keys of ``helpers`` are
-    the path of the workspace and the name of the package.
-    """
-    from ros_lint.collectors.cmake import evaluate as cmake  # noqa: PLC0415
-    from ros_lint.collectors.cmake.evaluator.sources import Helper  # noqa: PLC0415
-    from ros_lint.collectors.cmake.released_macros import opaque_packages  # noqa: PLC0415
-
-    inputs = sources(tree, parts, surroundings)
-    own_helpers = helpers.setdefault(workspace_of(parts.package.path), {})
-    visible = ChainMap(own_helpers, *[of_workspace for of_workspace in helpers.values() if of_workspace is not own_helpers])
-    script = cmake.evaluate(inputs, distro, visible)
-    if script.exports.config_extras and parts.package.name not in opaque_packages():
-        own_helpers[parts.package.name] = Helper(inputs, script)
-    folder = parts.package.path
-    calls = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
-    return script._replace(commands=script.commands._replace(calls=ByName(chain.from_iterable(calls))))
 
 
 def _failed(parts: Parts, reason: str) -> BuildScript:
@@ -159,20 +250,9 @@ def _modules(tree: Tree, package: DiscoveredPackage, script: BuildScript) -> Ite
             yield python_names.collect(name, path, text)
 
 
-def _helps(parts: Parts) -> bool:
-    """Return whether a package has CMake code that runs in its dependents: ament_package(CONFIG_EXTRAS ...)."""
-    return any(
-        argument[0].startswith("CONFIG_EXTRAS")
-        for parsed in parts.commands.values()
-        for command in parsed.commands
-        if command.name in ("ament_package", "ament_auto_package")
-        for argument in command.args
-    )
-
-
 def _helping(packages: Sequence[Parts]) -> Iterator[int]:
     """Yield the indices of packages with CONFIG_EXTRAS, dependencies before their dependents."""
-    remaining = {number: parts.package.name for number, parts in enumerate(packages) if _helps(parts)}
+    remaining = {number: parts.package.name for number, parts in enumerate(packages) if parts.helps}
     while remaining:
         names = frozenset(remaining.values())
         ready = [number for number, name in remaining.items() if not _needed(packages[number]) & (names - {name})]

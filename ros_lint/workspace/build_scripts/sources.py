@@ -8,6 +8,7 @@ from functools import partial
 from typing import Final, NamedTuple
 
 from ros_lint.base.paths import is_below, join, strip_folder
+from ros_lint.base.questions import Memo, Questions
 from ros_lint.base.tree import Entry, Tree, text_of
 from ros_lint.collectors.cmake.evaluator.sources import OutsideTree, Sources
 from ros_lint.collectors.cmake.syntax import ParsedScript, parse
@@ -32,6 +33,27 @@ class Parts(NamedTuple):
 
     :data:`ros_lint.knowledge.index.KINDS` has the letters.
     """
+    helps: bool
+    """True if the package has CMake code that runs in its dependents: ament_package(CONFIG_EXTRAS ...)."""
+
+    @classmethod
+    def of(
+        cls, package: DiscoveredPackage, commands: Mapping[str, ParsedScript], depends: Mapping[str, tuple[str, ...]]
+    ) -> Parts:
+        """Return the parts of a package. The arguments are the fields of the result."""
+        helps = any(
+            argument[0].startswith("CONFIG_EXTRAS")
+            for parsed in commands.values()
+            for command in parsed.commands
+            if command.name in ("ament_package", "ament_auto_package")
+            for argument in command.args
+        )
+        return cls(package, commands, depends, helps)
+
+    @property
+    def of_cmake(self) -> bool:
+        """True if the build script of the package is a CMakeLists.txt."""
+        return "CMakeLists.txt" in self.commands and self.package.type != "ros.ament_python"
 
 
 class Surroundings:
@@ -41,12 +63,10 @@ class Surroundings:
     outside of the package are left out, because the meaning of ``..`` then depends on the path.
     """
 
-    def __init__(self, tree: Tree) -> None:
+    def __init__(self, tree: Tree, questions: Questions | None = None) -> None:
         self._tree = tree
         self._base = tree.identity("")
-        self._entries: dict[str, Mapping[str, Entry]] = {}
-        self._files: dict[str, Sequence[str]] = {}
-        self._scripts: dict[str, ParsedScript | None] = {}
+        self._questions = questions or Memo()
 
     def of(self, package: str) -> OutsideTree:
         """Return the files outside of a package that its scripts can read. ``package`` is the path of the package."""
@@ -61,25 +81,35 @@ class Surroundings:
         return "file" if entry is not None and entry.kind == "file" else ""
 
     def below(self, folder: str) -> Sequence[str]:
-        if folder not in self._files:
-            self._files[folder] = sorted(self._gathered(folder))
-        return self._files[folder]
+        return self._questions.ask(("files below", folder), lambda: sorted(self._gathered(folder)))
 
     def script(self, path: str) -> ParsedScript | None:
-        if path not in self._scripts:
-            inside = self.kind(path) == "file" and is_below(self._tree.identity(path), self._base)
-            text = text_of(self._tree, path) if inside else None
-            self._scripts[path] = parse(text) if text is not None else None
-        return self._scripts[path]
+        return self._questions.ask(("parsed outside", path), lambda: self._parsed(path))
+
+    def parsed_in(self, package: DiscoveredPackage, file: str) -> ParsedScript | None:
+        """Return the parsed CMake code in a file of a package, None if the package has no such file or it cannot be read."""
+        if file not in package.files:
+            return None
+        return self._questions.ask(("parsed", join(package.path, file)), lambda: self._parsed_file(join(package.path, file)))
+
+    def _parsed_file(self, path: str) -> ParsedScript | None:
+        text = text_of(self._tree, path)
+        return parse(text) if text is not None else None
+
+    def _parsed(self, path: str) -> ParsedScript | None:
+        inside = self.kind(path) == "file" and is_below(self._tree.identity(path), self._base)
+        text = text_of(self._tree, path) if inside else None
+        return parse(text) if text is not None else None
 
     def _entries_of(self, folder: str) -> Mapping[str, Entry]:
         """Return the entries of a folder by name; {} if the folder is unreadable or outside the tree."""
-        if folder not in self._entries:
-            self._entries[folder] = {}
-            if SKIPPED_FOLDERS.isdisjoint(folder.split("/")) and is_below(self._tree.identity(folder), self._base):
-                with suppress(OSError):
-                    self._entries[folder] = {entry.name: entry for entry in self._tree.list(folder)}
-        return self._entries[folder]
+        return self._questions.ask(("entries", folder), lambda: self._list(folder))
+
+    def _list(self, folder: str) -> Mapping[str, Entry]:
+        if SKIPPED_FOLDERS.isdisjoint(folder.split("/")) and is_below(self._tree.identity(folder), self._base):
+            with suppress(OSError):
+                return {entry.name: entry for entry in self._tree.list(folder)}
+        return {}
 
     def _gathered(self, folder: str) -> list[str]:
         """Return the files below a folder; [] if the folder has more than ``_MOST_ENTRIES`` entries.
@@ -113,7 +143,7 @@ def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
         package.name,
         package.path,
         package.files,
-        _Scripts(tree, package, parts.commands),
+        _Scripts(tree, package, parts.commands, surroundings),
         executables,
         version,
         build_depends,
@@ -128,21 +158,24 @@ def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
 class _Scripts(Mapping[str, ParsedScript]):
     """The parsed CMake files of a package, by path. A file with another name, e.g. ``flags.txt``, is parsed on request."""
 
-    def __init__(self, tree: Tree, package: DiscoveredPackage, parsed: Mapping[str, ParsedScript]) -> None:
+    def __init__(
+        self, tree: Tree, package: DiscoveredPackage, parsed: Mapping[str, ParsedScript], surroundings: Surroundings
+    ) -> None:
         self._tree = tree
         self._package = package
-        self._parsed = dict(parsed)
+        self._parsed = parsed
+        self._surroundings = surroundings
 
     def __contains__(self, path: object) -> bool:
         return path in self._parsed or path in self._package.files
 
     def __getitem__(self, path: str) -> ParsedScript:
-        if path not in self._parsed:
-            text = text_in(self._tree, self._package, path)
-            if text is None:
+        parsed = self._parsed.get(path)
+        if parsed is None:
+            parsed = self._surroundings.parsed_in(self._package, path)
+            if parsed is None:
                 raise KeyError(path)
-            self._parsed[path] = parse(text)
-        return self._parsed[path]
+        return parsed
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._parsed)

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.base.paths import strip_folder
+from ros_lint.base.questions import Questions, RecordedMapping, Recorder
 from ros_lint.base.text import Span
 from ros_lint.facts.build import REPOSITORIES
 from ros_lint.facts.launch import LaunchFile
@@ -76,13 +77,19 @@ _TEST_PREFIXES = ("gtest/", "gmock/")
 
 
 class Resolver:
-    """Resolves names to packages, once for all packages of a workspace."""
+    """Resolves names to packages, once for all packages of a workspace.
 
-    def __init__(self, sources: Sequence[PackageSource], names: ProviderLookup) -> None:
+    With a ``recorder``, the resolver can be renewed, and answers of the recorder that ask it record what they read.
+    """
+
+    def __init__(self, names: ProviderLookup, recorder: Recorder | None = None) -> None:
         self.names = names
-        self._headers = include_index(sources)
-        self._sources = frozenset([source.name for source in sources])
-        self._empty = frozenset([source.name for source in sources if source.built.cmake.makes_nothing])
+        self._recorder = recorder
+        self._questions: Questions | None = recorder.scope() if recorder else None
+        self._headers: Mapping[str, tuple[str, ...]] = RecordedMapping(recorder) if recorder else {}
+        self._empty: Mapping[str, bool] = RecordedMapping(recorder) if recorder else {}
+        """The packages by name. The value is True if the package makes nothing."""
+        self._indexed: Sequence[tuple[str, tuple[str, ...]]] = ()
         self._matchers: Mapping[Via, Callable[[str], ProviderMatch]] = {
             "include": self._include,
             "import": self._import,
@@ -97,22 +104,42 @@ class Resolver:
         }
         self._matches: Mapping[Via, dict[str, ProviderMatch]] = {via: {} for via in self._matchers}
 
+    def renew(self, sources: Sequence[PackageSource]) -> None:
+        """Take the packages of the workspace, in which names are looked up."""
+        empty: dict[str, bool] = {}
+        for source in sources:
+            empty[source.name] = empty.get(source.name, False) or source.built.cmake.makes_nothing
+        indexed = [(source.name, source.files) for source in sources]
+        headers = None if indexed == self._indexed else include_index(sources)
+        self._indexed = indexed
+        if self._recorder is None:
+            self._empty, self._headers = empty, headers or {}
+            return
+        assert isinstance(self._empty, RecordedMapping)
+        assert isinstance(self._headers, RecordedMapping)
+        self._recorder.change([*self._empty.update(empty), *(self._headers.update(headers) if headers is not None else ())])
+
     def match(self, via: Via, name: str) -> ProviderMatch:
         """Return the packages that may provide ``name``, e.g. a header path. ``via`` is the kind of the name, e.g. "include".
 
         The result does not depend on the package that contains the name, and may contain this package.
         """
+        if self._questions:
+            return self._questions.ask((via, name), lambda: self._find(via, name))
         matches = self._matches[via]
         match = matches.get(name)
         if match is None:
-            match = matches[name] = self._matchers[via](name)._replace(what=_QUOTATIONS[via].format(name))
+            match = matches[name] = self._find(via, name)
         return match
+
+    def _find(self, via: Via, name: str) -> ProviderMatch:
+        return self._matchers[via](name)._replace(what=_QUOTATIONS[via].format(name))
 
     def _include(self, header: str) -> ProviderMatch:
         packages = self._headers.get(header)
         first, slash, _ = header.partition("/")
         if not packages:
-            if (slash and first in self._empty) or _ROS_1_HEADER.fullmatch(header):
+            if (slash and self._empty.get(first, False)) or _ROS_1_HEADER.fullmatch(header):
                 return _NO_MATCH  # a library named like a metapackage, or headers of ROS 1
             return self._match(self.names.by_include(header), first if slash else "", header)
         if slash and first not in packages:
@@ -125,7 +152,7 @@ class Resolver:
         first = module.partition(".")[0]
         match = self._match(self.names.by_import(module), first, module)
         # An interface module refers to the package of its name even if the module is unknown.
-        is_own_interface = not match.providers and first in self._sources and _INTERFACES.match(module)
+        is_own_interface = not match.providers and first in self._empty and _INTERFACES.match(module)
         return ProviderMatch((first,)) if is_own_interface else match
 
     def _package(self, name: str) -> ProviderMatch:

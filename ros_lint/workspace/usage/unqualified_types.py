@@ -11,10 +11,10 @@ A package with such a use is not reported as unused. The use alone is not report
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from ros_lint.base.paths import join
+from ros_lint.base.questions import Memo, RecordedMapping
 from ros_lint.base.text import to_bytes
 from ros_lint.base.tree import contents
 from ros_lint.collectors.cpp import types as cpp_types
@@ -23,6 +23,7 @@ from ros_lint.collectors.suffixes import HEADERS, SOURCES
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 
+    from ros_lint.base.questions import Questions, Recorder
     from ros_lint.base.text import Span
     from ros_lint.base.tree import Tree
     from ros_lint.workspace.usage.package_files import PackageSource
@@ -44,18 +45,58 @@ class NameSet(Protocol):
     def __contains__(self, name: str, /) -> bool: ...
 
 
+class _Declaring(NamedTuple):
+    """The part of a package that tells which types it declares."""
+
+    name: str
+    path: str
+    headers: tuple[str, ...]
+    """The public headers, relative to the package."""
+    interfaces: bool
+    """True if the package generates code for interfaces."""
+    mentioned: Mapping[str, tuple[str, ...]]
+    """The public headers that mention a package, by the name of the package."""
+
+    @classmethod
+    def of(cls, source: PackageSource) -> _Declaring:
+        headers = tuple(filter(_is_public, source.files))
+        mentioned: dict[str, dict[str, None]] = {}
+        for file in headers:
+            facts = source.facts.get(file)
+            for mention in facts.mentions if facts else ():
+                if mention.via in ("include", "symbol"):
+                    mentioned.setdefault(mention.name.partition("/")[0], {})[file] = None
+        interfaces = bool(source.script and source.script.products.interfaces)
+        return cls(source.name, source.path, headers, interfaces, {name: tuple(files) for name, files in mentioned.items()})
+
+
 class Types:
     """Finds unqualified names of types in the packages of a workspace.
 
     ``transitive`` returns, for the name of a package, the names of all packages that its dependencies provide transitively.
+    With a ``recorder``, the object can be renewed, and answers of the recorder that ask it record what they read.
     """
 
-    def __init__(self, sources: Sequence[PackageSource], tree: Tree, transitive: Callable[[str], NameSet]) -> None:
-        self._by_name = {source.name: source for source in sources}
+    def __init__(self, tree: Tree, transitive: Callable[[str], NameSet], recorder: Recorder | None = None) -> None:
         self._tree = tree
         self._transitive = transitive
-        self._public: dict[str, _TypeNames] = {}
-        self._introduced: dict[str, Mapping[str, set[bytes]]] = {}
+        self._recorder = recorder
+        self._questions: Questions = recorder.scope() if recorder else Memo()
+        self._sources: Mapping[str, PackageSource] = {}
+        self._declaring: dict[str, tuple[PackageSource, _Declaring]] = {}
+        self._by_name: Mapping[str, _Declaring] = RecordedMapping(recorder) if recorder else {}
+
+    def renew(self, sources: Sequence[PackageSource]) -> None:
+        """Take the packages of the workspace."""
+        self._sources = {source.name: source for source in sources}
+        if self._recorder is None:
+            return
+        assert isinstance(self._by_name, RecordedMapping)
+        for name, source in self._sources.items():
+            known = self._declaring.get(name)
+            if known is None or known[0] is not source:
+                self._declaring[name] = source, _Declaring.of(source)
+        self._recorder.change(list(self._by_name.update({name: self._declaring[name][1] for name in self._sources})))
 
     def used(self, source: PackageSource, names: Iterable[str]) -> Mapping[str, Span]:
         """Return, for each of the package names, a place where ``source`` uses a type of the package by an unqualified name.
@@ -83,43 +124,45 @@ class Types:
         return places
 
     def _type_names(self, source: PackageSource, name: str) -> _TypeNames:
-        workspace_source = self._by_name.get(name)
-        if workspace_source is not None and not (workspace_source.script and workspace_source.script.products.interfaces):
-            return self._declared_types(workspace_source)
+        declaring = self._packages.get(name)
+        if declaring is not None and not declaring.interfaces:
+            return self._questions.ask(("declared", name), lambda: self._declared_types(name))
         provided = self._transitive(source.name)
-        types = [
-            self._message_aliases(name, *header) for header in self._headers_by_package.get(name, ()) if header[0] in provided
-        ]
+        headers = self._questions.ask(("headers", name), lambda: self._headers_with(name))
+        types = [self._message_aliases(package, file).get(name, frozenset()) for package, file in headers if package in provided]
         return _TypeNames(frozenset(name for of_header in types for name in of_header), frozenset())
 
-    def _declared_types(self, source: PackageSource) -> _TypeNames:
-        if source.name not in self._public:
-            texts = [text for _, text in self._texts(source, filter(_is_public, source.files))]
-            spaces = frozenset(part for text in texts for part in cpp_types.namespaces(text))
-            self._public[source.name] = _TypeNames(
-                frozenset(name for text in texts for name in cpp_types.declared_types(text)), spaces
-            )
-        return self._public[source.name]
+    @property
+    def _packages(self) -> Mapping[str, _Declaring]:
+        """The packages by name."""
+        if self._recorder is None and not self._by_name:  # few workspaces need them
+            self._by_name = {name: _Declaring.of(source) for name, source in self._sources.items()}
+        return self._by_name
 
-    def _message_aliases(self, name: str, package: str, file: str) -> Set[bytes]:
-        """Return the names that a header gives to messages of a package (``using pkg::msg::Type;``). The header is read once."""
-        source = self._by_name[package]
-        key = join(source.path, file)
-        if key not in self._introduced:
-            self._introduced[key] = cpp_types.interface_aliases(b"".join([text for _, text in self._texts(source, [file])]))
-        return self._introduced[key].get(name, frozenset())
+    def _declared_types(self, name: str) -> _TypeNames:
+        declaring = self._packages[name]
+        texts = [text for _, text in contents(self._tree, declaring.path, declaring.headers)]
+        spaces = frozenset(part for text in texts for part in cpp_types.namespaces(text))
+        return _TypeNames(frozenset(name for text in texts for name in cpp_types.declared_types(text)), spaces)
 
-    @cached_property
-    def _headers_by_package(self) -> Mapping[str, Sequence[tuple[str, str]]]:
-        """For each package name: the public headers that mention it, as pairs of the header's package and the header's path."""
-        headers: dict[str, dict[tuple[str, str], None]] = {}
-        for source in self._by_name.values():
-            for file in filter(_is_public, source.files):
-                facts = source.facts.get(file)
-                for mention in facts.mentions if facts else ():
-                    if mention.via in ("include", "symbol"):
-                        headers.setdefault(mention.name.partition("/")[0], {})[source.name, file] = None
-        return {name: tuple(places) for name, places in headers.items()}
+    def _message_aliases(self, package: str, file: str) -> Mapping[str, Set[bytes]]:
+        """Return the names that a header gives to messages (``using pkg::msg::Type;``), by package. The header is read once."""
+        path = join(self._packages[package].path, file)
+        return self._questions.ask(("aliases", path), lambda: self._find_aliases(path))
+
+    def _find_aliases(self, path: str) -> Mapping[str, Set[bytes]]:
+        return cpp_types.interface_aliases(b"".join([text for _, text in contents(self._tree, "", [path])]))
+
+    def _headers_with(self, name: str) -> Sequence[tuple[str, str]]:
+        """Return the public headers that mention a package, as pairs of the header's package and the header's path."""
+        return self._questions.ask("headers", self._find_headers).get(name, ())
+
+    def _find_headers(self) -> Mapping[str, Sequence[tuple[str, str]]]:
+        headers: dict[str, list[tuple[str, str]]] = {}
+        for declaring in self._packages.values():
+            for name, files in declaring.mentioned.items():
+                headers.setdefault(name, []).extend([(declaring.name, file) for file in files])
+        return headers
 
     def _texts(self, source: PackageSource, files: Iterable[str]) -> Iterator[tuple[str, bytes]]:
         return contents(self._tree, source.path, (file for file in files if file.endswith(_CODE)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.base.auxiliary_files import TEST_FOLDERS
 from ros_lint.base.paths import folders_of, join
@@ -17,12 +17,25 @@ from ros_lint.workspace.usage.package_files import PackageSource
 _PROGRAMS = ("lib/", "bin/")
 
 
-def unreached_modules(tree: Tree, source: PackageSource, uses: Iterable[Use], others: Sequence[PackageSource]) -> frozenset[str]:
+ImportedModules = Callable[[str], Mapping[str, frozenset[str]]]
+"""A function that returns, for a top-level module, the full names of the modules that packages import, by path of the package."""
+
+
+def imported_modules(source: PackageSource) -> Mapping[str, frozenset[str]]:
+    """Return the names of the modules that a package imports, by top-level module."""
+    names = {mention.name for facts in source.facts.values() for mention in facts.mentions if mention.via == "import"}
+    by_top: dict[str, list[str]] = {}
+    for name in sorted(names):
+        by_top.setdefault(name.partition(".")[0], []).append(name)
+    return {top: frozenset(of_top) for top, of_top in by_top.items()}
+
+
+def unreached_modules(tree: Tree, source: PackageSource, uses: Iterable[Use], imported: ImportedModules) -> frozenset[str]:
     """Return the modules that contain an import of ``uses``, but that no started file of the package imports, even indirectly.
 
     Paths are relative to the package. Started files are entry points, installed programs, launch files, tests, and Python files
     outside of the installed Python packages. Reached files are the started files, the files that they import, and the modules
-    that the packages ``others`` import. The result contains only modules that cannot be imported if:
+    that other packages import, see ``imported``. The result contains only modules that cannot be imported if:
 
     - no file is started by name, as in a library,
     - a reached file computes names of imported modules,
@@ -36,7 +49,7 @@ def unreached_modules(tree: Tree, source: PackageSource, uses: Iterable[Use], ot
     if started.issuperset(candidates):
         return frozenset()
     outside = [file for file in source.files if file.endswith(".py") and _top(file) not in tops and file != "setup.py"]
-    starts = [*started, *outside, *_imported_elsewhere(modules, tops, others)]
+    starts = [*started, *outside, *_imported_elsewhere(modules, tops, source.path, imported)]
     reached = _reached(tree, source, starts) if started else None
     if reached is None:
         reached = started.union([module for module in candidates if _is_importable(tree, source, module)])
@@ -78,15 +91,12 @@ def _started(source: PackageSource, modules: Sequence[str]) -> Iterator[str]:
             yield module
 
 
-def _imported_elsewhere(modules: Iterable[str], tops: frozenset[str], others: Iterable[PackageSource]) -> Iterator[str]:
-    """Yield the modules that other packages import. ``import robot`` counts for all modules of ``robot``."""
-    names = {
-        mention.name.replace(".", "/")
-        for other in others
-        for facts in other.facts.values()
-        for mention in facts.mentions
-        if mention.via == "import" and mention.name.partition(".")[0] in tops
-    }
+def _imported_elsewhere(modules: Iterable[str], tops: frozenset[str], own: str, imported: ImportedModules) -> Iterator[str]:
+    """Yield the modules that packages import, except for the package at ``own``.
+
+    ``import robot`` counts for all modules of ``robot``.
+    """
+    names = {name.replace(".", "/") for top in tops for path, of_path in imported(top).items() if path != own for name in of_path}
     prefixes = tuple([f"{name}{end}" for name in names for end in ("/", ".")])
     yield from (module for module in modules if module.removeprefix("src/").startswith(prefixes)) if prefixes else ()
 

@@ -11,7 +11,7 @@ from ros_lint.base.text import Text, read
 from ros_lint.base.tree import text_of
 from ros_lint.cli.checking import check_workspaces, selection_of
 from ros_lint.cli.session import open_session, parse_request
-from ros_lint.cli.settings import find
+from ros_lint.cli.settings import CONFIGURATION_FILES, find
 from ros_lint.engine import registry
 from ros_lint.engine.fix_trials import FixTrials
 from ros_lint.engine.fixing import fix
@@ -52,7 +52,7 @@ class Project:
     def reopen(self) -> None:
         """Read the settings and the changed files again. Raises UserError."""
         self._request: Request = parse_request(self._options, self._environment)
-        self._session: Session = open_session(self._request, self._progress)
+        self._session: Session = open_session(self._request, self._progress, again=True)
 
     @property
     def base(self) -> str:
@@ -75,7 +75,7 @@ class Project:
         """
         loader = self._session.loader
         workspaces = loader.load_all(unsaved)
-        report = check_workspaces(self._session, workspaces, self._session.roots, changed=unsaved)
+        report = check_workspaces(self._session, workspaces, self._session.roots)
 
         def text(path: str) -> Text | None:
             return read(path, unsaved[path]) if path in unsaved else text_of(loader.tree, path)
@@ -93,11 +93,13 @@ class Project:
             selection = selection._replace(rules=tuple([other for other in selection.rules if other.name == rule]))
         trials = FixTrials(session.loader, session.roots, selection, registry.load(session.settings["plugins"]))
         changed = fix(trials, unsaved).changed
-        self.reopen()  # the loader of the trials keeps the contents of the edited files
+        session.loader.unpin()
+        session.loader.load_all(unsaved)  # the last snapshot shows the state of the last load
         return {path: data for path, data in changed.items() if unsaved.get(path) != data}
 
     def refresh(self, paths: Mapping[str, object]) -> None:
         """Record that files changed on disk. ``paths`` are absolute. Raises UserError if the settings are now invalid."""
         relative = {os.path.relpath(path, self.base).replace(os.sep, "/") for path in paths}
-        if not self._session.loader.forget(relative) or find(self.folder) in paths:
+        self._session.loader.forget(relative)
+        if find(self.folder) in paths or any(os.path.basename(path) in CONFIGURATION_FILES for path in paths):
             self.reopen()

@@ -1,0 +1,250 @@
+"""Remembered answers: pure functions whose results are kept, and found again as long as nothing that they read has changed.
+
+A :class:`Memo` keeps each answer for one run. A :class:`Recorder` also records what each answer has read: inputs
+(:class:`Cell`) and other answers. After a change of inputs, an answer is computed again only if something that it has read is
+different. An answer that is computed again with an equal result stops the change (early cut-off, as in salsa).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from typing import Any, Protocol, TypeVar, cast
+
+T = TypeVar("T")
+V = TypeVar("V")
+
+
+class Questions(Protocol):
+    """Answers by question. A question is a hashable value, usually a function with its arguments."""
+
+    def ask(self, question: Hashable, answer: Callable[[], T]) -> T:
+        """Return the answer to a question. ``answer`` computes it if it is not known. It must be a pure function."""
+
+
+class Memo:
+    """Answers that are kept as long as the object, without a record of what they have read."""
+
+    __slots__ = ("_answers",)
+
+    def __init__(self) -> None:
+        self._answers: dict[Hashable, Any] = {}
+
+    def ask(self, question: Hashable, answer: Callable[[], T]) -> T:
+        try:
+            return cast("T", self._answers[question])
+        except KeyError:
+            value = self._answers[question] = answer()
+            return value
+
+
+class Cell:
+    """An input that answers can read, such as a field of a package. Two cells are never equal."""
+
+    __slots__ = ("readers",)
+
+    def __init__(self) -> None:
+        self.readers: dict[_Answer, None] = {}
+        """The answers that have read the cell."""
+
+
+_CURRENT, _SUSPECT, _OUTDATED = 0, 1, 2
+"""States of an answer: valid; valid unless an answer that it has read changes; invalid."""
+
+
+class _Answer(Cell):
+    """The answer to a question. Other answers can read it."""
+
+    __slots__ = ("compute", "question", "reads", "state", "value")
+
+    def __init__(self, question: Hashable, compute: Callable[[], object]) -> None:
+        super().__init__()
+        self.question = question
+        self.compute = compute
+        self.value: object = None
+        self.reads: dict[Cell, None] = {}
+        self.state = _OUTDATED
+
+
+class Recorder:
+    """Answers with a record of what they have read.
+
+    :meth:`change` is called between two runs. Values that answers read must not change while an answer is computed.
+    """
+
+    def __init__(self) -> None:
+        self._answers: dict[Hashable, _Answer] = {}
+        self.reads: dict[Cell, None] | None = None
+        """What the answer that is being computed has read so far, in order; None if no answer is being computed."""
+
+    def scope(self) -> Questions:
+        """Return a collection of answers of its own: the same question in another scope is another question."""
+        return _Scope(self)
+
+    def note(self, cell: Cell) -> None:
+        """Record that the answer that is being computed reads a cell."""
+        if self.reads is not None:
+            self.reads[cell] = None
+
+    def ask(self, question: Hashable, answer: Callable[[], T]) -> T:
+        found = self._answers.get(question)
+        if found is None:
+            found = _Answer(question, answer)
+            found.value = self._compute(found)
+            found.state = _CURRENT
+            self._answers[question] = found
+        elif found.state:
+            found.compute = answer
+            self._renew(found)
+        if self.reads is not None:
+            self.reads[found] = None
+        return cast("T", found.value)
+
+    def change(self, cells: Iterable[Cell]) -> None:
+        """Record that the values of some inputs have changed since they were read."""
+        suspects: list[_Answer] = []
+        for cell in cells:
+            for reader in cell.readers:
+                if reader.state == _CURRENT:
+                    suspects.append(reader)
+                reader.state = _OUTDATED
+        while suspects:
+            for reader in suspects.pop().readers:
+                if reader.state == _CURRENT:
+                    reader.state = _SUSPECT
+                    suspects.append(reader)
+
+    def _renew(self, found: _Answer) -> None:
+        """Make an answer valid: compute it again if something that it has read has changed."""
+        if found.state == _SUSPECT:
+            for read in found.reads:
+                if isinstance(read, _Answer) and read.state:
+                    try:
+                        self._renew(read)
+                    except Exception:  # the error is raised again if the question is still asked
+                        found.state = _OUTDATED
+                if found.state == _OUTDATED:
+                    break
+            else:
+                found.state = _CURRENT
+                return
+        value = self._compute(found)
+        found.state = _CURRENT
+        if not same(found.value, value):
+            found.value = value
+            for reader in found.readers:
+                reader.state = _OUTDATED
+
+    def _compute(self, found: _Answer) -> object:
+        """Return a newly computed answer, and record what it has read."""
+        outer, self.reads = self.reads, {}
+        try:
+            value = found.compute()
+        except BaseException:
+            if outer is not None:
+                outer.update(self.reads)  # the question that asks this one depends on the failure
+            self._forget(found)
+            raise
+        else:
+            for cell in found.reads:
+                if cell not in self.reads:
+                    cell.readers.pop(found, None)
+            for cell in self.reads:
+                cell.readers[found] = None
+            found.reads = self.reads
+            return value
+        finally:
+            self.reads = outer
+
+    def _forget(self, found: _Answer) -> None:
+        self._answers.pop(found.question, None)
+        for cell in found.reads:
+            cell.readers.pop(found, None)
+        for reader in found.readers:
+            reader.state = _OUTDATED
+
+
+class _Scope:
+    """The answers of a recorder to the questions about one object."""
+
+    __slots__ = ("_recorder",)
+
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
+
+    def ask(self, question: Hashable, answer: Callable[[], T]) -> T:
+        return self._recorder.ask((self, question), answer)
+
+
+def same(first: object, second: object) -> bool:
+    """Return whether two values are equal, including the order of the entries of mappings in them."""
+    return first is second or (first == second and _in_same_order(first, second))
+
+
+def _in_same_order(first: Any, second: Any) -> bool:
+    if first is second:
+        return True
+    if isinstance(first, Mapping):
+        return list(first) == list(second) and all(_in_same_order(value, second[key]) for key, value in first.items())
+    if isinstance(first, (tuple, list)):
+        return all(map(_in_same_order, first, second))
+    return True
+
+
+class RecordedMapping(Mapping[str, V]):
+    """A mapping whose look-ups are recorded. The look-up of a missing key is recorded, too."""
+
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
+        self._values: Mapping[str, V] = {}
+        self._cells: dict[str, Cell] = {}
+        self._presence: dict[str, Cell] = {}
+        self._keys = Cell()
+        self._all = Cell()
+
+    def update(self, values: Mapping[str, V]) -> Iterator[Cell]:
+        """Replace the contents, and yield the cells that have changed."""
+        before, self._values = self._values, values
+        for key, cell in self._cells.items():
+            if (key in before) != (key in values) or (key in values and not same(before[key], values[key])):
+                yield cell
+        for key, cell in self._presence.items():
+            if (key in before) != (key in values):
+                yield cell
+        if list(before) != list(values):
+            yield self._keys
+            yield self._all
+        elif any(not same(before[key], value) for key, value in values.items()):
+            yield self._all
+
+    def __getitem__(self, key: str) -> V:
+        if self._recorder.reads is not None:
+            self._recorder.reads[_cell(self._cells, key)] = None
+        return self._values[key]
+
+    def __contains__(self, key: object) -> bool:
+        if self._recorder.reads is not None and isinstance(key, str):
+            self._recorder.reads[_cell(self._presence, key)] = None
+        return key in self._values
+
+    def __iter__(self) -> Iterator[str]:
+        self._recorder.note(self._keys)
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        self._recorder.note(self._keys)
+        return len(self._values)
+
+    def values(self) -> Any:
+        self._recorder.note(self._all)
+        return self._values.values()
+
+    def items(self) -> Any:
+        self._recorder.note(self._all)
+        return self._values.items()
+
+
+def _cell(cells: dict[str, Cell], key: str) -> Cell:
+    cell = cells.get(key)
+    if cell is None:
+        cell = cells[key] = Cell()
+    return cell
