@@ -92,7 +92,7 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
         return
     same = [macro for macro in registered if macro.name == entry.type]
     if same:
-        yield from _base(plugin, entry, same)
+        yield from _base(package, plugin, entry, same)
         return
     last = entry.type.rpartition("::")[2]
     described = {
@@ -119,12 +119,25 @@ def _class(package: Package, plugin: PluginFile, entry: PluginClass, registered:
     )
 
 
-def _base(plugin: PluginFile, entry: PluginClass, macros: Sequence[Registration]) -> Iterator[Finding]:
+def _base(package: Package, plugin: PluginFile, entry: PluginClass, macros: Sequence[Registration]) -> Iterator[Finding]:
     """Yield a finding if every registration of a plugin has a base class other than the class in the description."""
     if all(_differ(entry.base, macro.base) for macro in macros):
+        described = [
+            other.base
+            for file in package.built.files.plugin_files
+            for library in file.libraries
+            for other in library.classes
+            if other.type == entry.type
+        ]
+        twice = any(not _differ(base, macro.base) for base in described for macro in macros)
+        remedy = (
+            "remove this <class>, because another one has that base class"
+            if twice
+            else "write the same base class in both places"
+        )
         yield Finding(
             f"the plugin '{entry.type}' is described with the base class '{entry.base}', but registered with '{macros[0].base}'; "
-            "write the same base class in both places",
+            f"{remedy}",
             entry.span,
             f"{plugin.path}#{entry.type}",
             first_related(Related(f"'{macro.name}' is registered here", macro.span) for macro in macros),

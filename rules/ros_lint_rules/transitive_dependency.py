@@ -195,7 +195,7 @@ def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tu
     used = dict.fromkeys(
         name for other in dependencies.needs(package, workspace) if other.role & purpose for name in other.declared
     )
-    for starts in (names[purpose], used, names[_ANY]):
+    for starts in (names[purpose], {} if purpose & Role.TEST else used, names[_ANY]):
         for name in sorted(best.providers, key=workspace.world.is_runtime_library):
             if path := workspace.world.path(starts, name):
                 return path

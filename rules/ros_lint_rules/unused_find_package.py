@@ -39,6 +39,7 @@ Reported with medium confidence:
 
 from __future__ import annotations
 
+import re
 from collections.abc import Container, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
@@ -138,14 +139,22 @@ def _needed_for_others(package: Package, workspace: Workspace, unused: Mapping[s
 def _also_named(package: Package, find: Mention) -> list[Mention]:
     """Return the other places where the build script names the package, such as links and exports.
 
-    They have to be removed, too, because they fail without the find_package().
+    They have to be removed, too, because they fail without the find_package(). The variables of the package in lists of names to
+    link are among them: ``set(names ${std_msgs_TARGETS})``.
     """
     places = {
         mention.span: mention
         for mention in package.built.mentions
         if mention.name.partition("::")[0] == find.name and mention.span != find.span
     }
+    for call in package.calls("list", "set", anywhere=True):
+        for index, text in enumerate(call.texts):
+            if (match := _LINKED.fullmatch(text)) and match[1] == find.name:
+                places.setdefault(call.span(index), Mention(find.name, "target", call.span(index), text))
     return [places[span] for span in sorted(places)]
+
+
+_LINKED = re.compile(r"\$\{(\w+)_(?:TARGETS|LIBRARIES|INCLUDE_DIRS)\}")
 
 
 RULE = Rule(
