@@ -49,9 +49,12 @@ class Spelling:
         if len(name) < _MIN_LETTERS:
             return ()
         half = len(name) // 2
-        candidates = set(_with_prefix(self._names, name[: half - 1]))
-        candidates.update([reverse[::-1] for reverse in _with_prefix(self._backwards, name[half + 1 :][::-1])])
-        return tuple(sorted([word for word in candidates if -2 < len(word) - len(name) < 2 and _is_slip(name, word)]))
+        candidates: set[str] = set()
+        for length in range(len(name) - 1, len(name) + 2):
+            forwards, backwards = self._by_length.get(length, ([], []))
+            candidates.update(_with_prefix(forwards, name[: half - 1]))
+            candidates.update([reverse[::-1] for reverse in _with_prefix(backwards, name[half + 1 :][::-1])])
+        return tuple(sorted([word for word in candidates if _is_slip(name, word)]))
 
     def near(self, name: str) -> tuple[str, ...]:
         """Return at most three existing names that resemble ``name``, the most similar first.
@@ -102,8 +105,12 @@ class Spelling:
         return names_of
 
     @cached_property
-    def _backwards(self) -> list[str]:
-        return sorted("\n".join(self._names)[::-1].split("\n"))
+    def _by_length(self) -> Mapping[int, tuple[list[str], list[str]]]:
+        """The names of each length, sorted; and the names read backwards, sorted."""
+        names_of: dict[int, list[str]] = {}
+        for name in self._names:
+            names_of.setdefault(len(name), []).append(name)
+        return {length: (names, sorted([name[::-1] for name in names])) for length, names in names_of.items()}
 
 
 def near_names(name: str, names: Iterable[str], most: int, least: float) -> list[str]:

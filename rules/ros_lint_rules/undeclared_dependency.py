@@ -274,8 +274,10 @@ def _is_in_unreached_module(package: Package, use: Use) -> bool:
 def _is_commented_out(package: Package, name: str) -> bool:
     """Return whether a dependency tag with the name is commented out in the manifest: its author removed it on purpose."""
     text = package.manifest.text if package.manifest else ""
+    if name not in text:
+        return False
     tag = re.compile(rf"<\w*depend\b[^>]*>\s*{re.escape(name)}\s*</")
-    return name in text and any(tag.search(comment) for comment in _COMMENT.findall(text))
+    return any(tag.search(comment) for comment in _COMMENT.findall(text))
 
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)

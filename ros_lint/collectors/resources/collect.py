@@ -6,7 +6,9 @@ Such files name packages in a few fixed forms such as ``package://robot/``, so t
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterator
+from functools import lru_cache
 from posixpath import normpath
 from typing import TYPE_CHECKING
 
@@ -167,5 +169,17 @@ def _in_comment(text: str, at: int) -> bool:
     line = text[text.rfind("\n", 0, at) + 1 : at]
     if line.lstrip()[:1] == "#" or " # " in line:
         return True
-    opening = text.rfind("<!--", 0, at)
-    return opening >= 0 and text.find("-->", opening) > at
+    comments = _comments(text)
+    number = bisect_left(comments, (at,)) - 1
+    return number >= 0 and at < comments[number][1]
+
+
+@lru_cache(maxsize=2)
+def _comments(text: str) -> list[tuple[int, int]]:
+    """Return the start and end offsets of the XML comments of a text. The offsets of one text are asked for many places."""
+    comments: list[tuple[int, int]] = []
+    start = text.find("<!--")
+    while start >= 0 and (end := text.find("-->", start)) >= 0:
+        comments.append((start, end))
+        start = text.find("<!--", end + 3)
+    return comments

@@ -62,7 +62,8 @@ class FoundPackages:
     def _folded_prefixes(self) -> Mapping[str, Sequence[str]]:
         """Return the known prefixes of variables, grouped by their form in lower case without ``_`` and ``-``."""
         if len(self.prefixes) != self._indexed:
-            for name in islice(self.prefixes, self._indexed, None):
+            new = list(islice(reversed(self.prefixes), len(self.prefixes) - self._indexed))  # from the end, without the others
+            for name in reversed(new):
                 letters = folded(name)
                 self._spellings.setdefault(letters, []).append(name)
                 self._spelling_lengths.add(len(letters))
