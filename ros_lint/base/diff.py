@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import difflib
 import re
+from collections.abc import Callable
 
+from ros_lint.base.controls import HARMFUL
 from ros_lint.base.text import to_bytes
 
 
@@ -13,8 +15,12 @@ def unified(path: str, before: str | None, after: str) -> str:
 
     ``before`` is None for a new file. The result is "" for equal texts.
     """
-    old = "/dev/null" if before is None else f"a/{path}"
-    lines = difflib.unified_diff(_lines(before or ""), _lines(after), old, f"b/{path}", n=1)
+    return _diff(path, before, after, lambda name: name)
+
+
+def _diff(path: str, before: str | None, after: str, encoded: Callable[[str], str]) -> str:
+    old = "/dev/null" if before is None else _quoted(f"a/{path}")
+    lines = difflib.unified_diff(_lines(before or ""), _lines(after), encoded(old), encoded(_quoted(f"b/{path}")), n=1)
     return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
 
 
@@ -22,7 +28,21 @@ def unified_bytes(path: str, before: bytes | None, after: bytes) -> bytes:
     """Return the unified diff of two versions of a file as bytes, in any encoding; see :func:`unified`."""
     # latin-1 maps each byte to a character, because difflib compares texts.
     was = None if before is None else before.decode("latin-1")
-    return unified(to_bytes(path).decode("latin-1"), was, after.decode("latin-1")).encode("latin-1")
+    return _diff(path, was, after.decode("latin-1"), lambda name: to_bytes(name).decode("latin-1")).encode("latin-1")
+
+
+_SPECIAL = re.compile(f'["\\\\\n\t]|{HARMFUL.pattern}')
+
+
+def _quoted(name: str) -> str:
+    """Return the name of a file as git writes it in a patch: in quotes, with octal escapes, if it has special characters."""
+    if not _SPECIAL.search(name):
+        return name
+    return (
+        '"'
+        + "".join(chr(byte) if 32 <= byte < 127 and chr(byte) not in '"\\' else f"\\{byte:03o}" for byte in to_bytes(name))
+        + '"'
+    )
 
 
 def _lines(text: str) -> list[str]:

@@ -6,9 +6,9 @@ import json
 import re
 from typing import Any
 
+from ros_lint.base.controls import HARMFUL
+
 _LONE = re.compile("[\ud800-\udfff]")
-# Valid in JSON as they are, but harmful in a terminal: controls and changes of the text direction.
-_HARMFUL = re.compile("[\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 
 def encode(value: Any, levels: int) -> str:
@@ -17,8 +17,12 @@ def encode(value: Any, levels: int) -> str:
     Lists and mappings in the outermost ``levels`` levels have one line for each entry; deeper levels are on one line.
     Lone surrogates, which represent undecodable bytes, become U+FFFD.
     """
-    text = _LONE.sub("\ufffd", f"{_lines(value, levels, '')}\n")
-    return _HARMFUL.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
+    return harmless(f"{_lines(value, levels, '')}\n")
+
+
+def harmless(text: str) -> str:
+    """Return JSON with escapes for characters that are harmful in a terminal. Lone surrogates become U+FFFD."""
+    return HARMFUL.sub(lambda match: f"\\u{ord(match[0]):04x}", _LONE.sub("\ufffd", text))
 
 
 def _lines(value: Any, levels: int, indent: str) -> str:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.base.text import Text, read
 from ros_lint.base.tree import text_of
+from ros_lint.cli.messages import show
 from ros_lint.cli.session import UsageError
 from ros_lint.reporters import FORMATS
 
@@ -77,7 +78,7 @@ def _write(path: str, data: bytes) -> int:
     try:
         edits.write(path, data)
     except edits.EditError as error:
-        print(f"ros-lint: {error}", file=sys.stderr)
+        show(str(error))
         return 2
     return 0
 

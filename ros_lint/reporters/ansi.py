@@ -6,6 +6,8 @@ import re
 from functools import lru_cache
 from typing import NamedTuple
 
+from ros_lint.base.controls import HARMFUL
+
 TAB = 4
 """Number of columns for which a tab is replaced by blanks."""
 
@@ -53,7 +55,17 @@ def link(url: str, text: str) -> str:
 
 def safe(text: str, style: Style) -> str:
     """Return a text with escapes in place of characters that move the cursor, or change colours or the direction of writing."""
+    text = _COMMAND.sub(r"#\\x23", text)
     return text if _PLAIN.match(text) else "".join(glyph(character, style.ascii)[0] for character in text)
+
+
+_COMMAND = re.compile(r"##(?=\[|vso\[)")
+"""Matches the start of a command, anywhere in a line, for GitHub Actions (``##[error]``) and Azure Pipelines (``##vso[...]``)."""
+
+
+def harmless(text: str) -> str:
+    """Return a text of any number of lines with escapes in place of the characters that :func:`safe` escapes in a line."""
+    return HARMFUL.sub(lambda match: _escape(ord(match[0])), text)
 
 
 def cells(line: str, style: Style) -> tuple[list[str], list[int]]:

@@ -19,5 +19,6 @@ def render(report: Report, texts: SourceTexts, style: Style) -> str:  # noqa: AR
 
 def _line(issue: Issue, style: Style) -> str:
     level = str(issue.severity)
-    place = paint(style, "bold", safe(str(issue.finding.span), style))
+    place = safe(str(issue.finding.span), style)
+    place = paint(style, "bold", f"./{place}" if place.startswith("::") else place)  # GitHub Actions would run ::error::
     return f"{place}: {paint(style, level, level)}: {safe(issue.finding.message, style)} [{issue.rule.name}]"

@@ -9,6 +9,7 @@ from datetime import datetime, timezone
 from typing import Any
 
 from ros_lint.base.paths import is_below_any
+from ros_lint.cli.messages import show
 from ros_lint.reporters.ansi import Style, safe
 from ros_lint.workspace.cache.folder import MOST_BYTES, CachedWorkspace, cached_workspaces, folder, remove
 
@@ -27,7 +28,7 @@ def run(options: Mapping[str, Any]) -> int:
         else:
             print(_text(place, cached_workspaces(place)))
     except OSError as error:
-        print(f"ros-lint: '{error.filename or place}': {error.strerror or error}", file=sys.stderr)
+        show(f"'{error.filename or place}': {error.strerror or error}")
         return 2
     return 0
 

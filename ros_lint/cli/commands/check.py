@@ -12,6 +12,7 @@ from ros_lint.analysis.finding import Severity
 from ros_lint.base.recorded_tree import RecordedTree
 from ros_lint.base.tree import MachineTree
 from ros_lint.cli import outputs
+from ros_lint.cli.messages import show
 from ros_lint.cli.progress import Progress
 from ros_lint.cli.session import UsageError, no_packages, open_session, parse_request, report_cache
 from ros_lint.engine.report import Report
@@ -66,13 +67,13 @@ def run(options: Mapping[str, Any]) -> int:
                 path = request.settings["baseline"]
                 report = known_findings.hide_known(report, os.path.basename(path), _folders(request, path))
     except UserError as error:
-        print(f"ros-lint: {error}", file=sys.stderr)
+        show(str(error))
         return 2
     _warn((*report.warnings, *request.cache.notes, *_single_package_warning(request)))
     if request.settings["diff"]:  # standard output is the patch and nothing else
         return max(code, exit_code(report, request.settings["fail-on"]))
     if not report.packages:
-        print(no_packages(request), file=sys.stderr)
+        show(no_packages(request).removeprefix("ros-lint: "))
     written = outputs.print_report(report, request, unsaved)
     return max(code, written, exit_code(report, request.settings["fail-on"]))
 
@@ -85,7 +86,7 @@ def _with_place(options: Mapping[str, Any]) -> Mapping[str, Any]:
 
 def _warn(warnings: Iterable[str]) -> None:
     for warning in warnings:
-        print(f"ros-lint: {warning}", file=sys.stderr)
+        show(warning)
 
 
 def _baseline(settings: Settings) -> Baseline | None:
@@ -112,11 +113,11 @@ def _write_baseline(report: Report, request: Request) -> int:
     path = request.settings["baseline"]
     if code := exit_code(report, "never"):
         why = "a rule failed, so its findings are unknown" if report.packages else no_packages(request)
-        print(f"ros-lint: {path}: not written: {why.removeprefix('ros-lint: ')}", file=sys.stderr)
+        show(f"{path}: not written: {why.removeprefix('ros-lint: ')}")
         return code
     baseline.write(path, report, _folders(request, path))
     count = len(report.issues)
-    print(f"ros-lint: wrote {count} finding{'s' * (count != 1)} to {path}", file=sys.stderr)
+    show(f"wrote {count} finding{'s' * (count != 1)} to {path}")
     return 0
 
 

@@ -7,10 +7,12 @@ import sys
 from typing import TYPE_CHECKING
 
 from ros_lint.cli.checking import check_workspaces, selection_of
+from ros_lint.cli.messages import show
 from ros_lint.cli.selected_packages import selected_folders
 from ros_lint.engine import edits, registry
 from ros_lint.engine.fix_trials import FixTrials
 from ros_lint.engine.fixing import fix
+from ros_lint.reporters.ansi import harmless
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -39,7 +41,7 @@ def run(session: Session) -> tuple[Report, int]:
 
     result = fix(trials)
     for issue, reason in result.skipped:
-        print(f"ros-lint: {issue.finding.span}: fix skipped: {reason} [{issue.rule.name}]", file=sys.stderr)
+        show(f"{issue.finding.span}: fix skipped: {reason} [{issue.rule.name}]")
     if settings["diff"]:
         sys.stdout.buffer.write(trials.patch(result.changed))
         sys.stdout.buffer.flush()
@@ -47,12 +49,12 @@ def run(session: Session) -> tuple[Report, int]:
     try:
         edits.write_all(session.base, result.changed, session.loader.pinned)
     except edits.EditError as error:
-        print(f"ros-lint: {error}", file=sys.stderr)
+        show(str(error))
         return report({path: result.changed[path] for path in error.written}), 2
-    print(f"ros-lint: {_summary(len(result.applied), len(result.changed))}", file=sys.stderr)
+    show(f"{_summary(len(result.applied), len(result.changed))}")
     if settings["show-fixes"]:
         for line in _listed(result.applied):
-            print(f"  {line}", file=sys.stderr)
+            print(f"  {harmless(line)}", file=sys.stderr)
     return report(result.changed), 0
 
 

@@ -9,6 +9,7 @@ from datetime import datetime, timezone
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.auxiliary_files import TEST_FOLDERS
+from ros_lint.cli.messages import show
 from ros_lint.knowledge import index, provides, rosdep, underlays
 from ros_lint.knowledge.provides import LETTERS, ReleasedContents
 from ros_lint.knowledge.refresh import rosdep_rules, rosdistro
@@ -43,10 +44,10 @@ def run(options: Mapping[str, Any]) -> int:
         else:
             _write_scan(options["distro"], options["to"], *scan(options["prefixes"], options["distro"]))
     except (KnowledgeError, underlays.UnderlayError) as error:
-        print(f"ros-lint: {error}", file=sys.stderr)
+        show(str(error))
         return 2
     except OSError as error:
-        print(f"ros-lint: {error.filename or 'data'} cannot be written: {error.strerror}", file=sys.stderr)
+        show(f"{error.filename or 'data'} cannot be written: {error.strerror}")
         return 2
     return 0
 

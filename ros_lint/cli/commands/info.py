@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from typing import Any
 
 from ros_lint.cli import rule_pages
+from ros_lint.cli.messages import show
 from ros_lint.engine import registry
 from ros_lint.errors import UserError
 
@@ -36,11 +36,11 @@ def _rules(options: Mapping[str, Any]) -> int:
     try:
         rules = registry.load(options.get("plugins", False))
     except UserError as error:
-        print(f"ros-lint: {error}", file=sys.stderr)
+        show(str(error))
         return 2
     matches = rules if name is None else [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
     if not matches:
-        print(f"ros-lint: {registry.unknown_rule_message(rules, str(name))}", file=sys.stderr)
+        show(f"{registry.unknown_rule_message(rules, str(name))}")
         return 2
     if options.get("format") == "json":
         print(rule_pages.as_json(matches), end="")

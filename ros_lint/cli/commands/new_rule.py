@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import shlex
-import sys
 from collections.abc import Mapping
 from string import Template
 from typing import Any
@@ -13,6 +12,7 @@ from typing import Any
 from ros_lint import __version__
 from ros_lint.analysis.finding import Severity
 from ros_lint.analysis.rule import Rule
+from ros_lint.cli.messages import show
 from ros_lint.engine import registry
 from ros_lint.engine.plugins import Plugin, problems
 from ros_lint.errors import UserError
@@ -32,7 +32,7 @@ def run(options: Mapping[str, Any]) -> int:
         check(name, code)
         write(name, files(name, code))
     except UserError as error:
-        print(f"ros-lint: {error}", file=sys.stderr)
+        show(str(error))
         return 2
     test = f".venv/bin/pip install -q {shlex.quote(_source())} -e '.[test]' && .venv/bin/python -m pytest"
     print(f"{name}: a plugin with the rule '{name}' ({code}); README.md explains its files. This command runs its tests:\n")

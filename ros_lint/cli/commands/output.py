@@ -17,7 +17,9 @@ def document(content: Mapping[str, Any]) -> str:
     """Return a JSON document as text: the version of the schema, then the content. See ``commands.schema.json``."""
     import json  # noqa: PLC0415  (only for this format)
 
-    return json.dumps({"schema_version": SCHEMA_VERSION, **content}, indent=2, ensure_ascii=False) + "\n"
+    from ros_lint.base.json_text import harmless  # noqa: PLC0415
+
+    return harmless(json.dumps({"schema_version": SCHEMA_VERSION, **content}, indent=2, ensure_ascii=False) + "\n")
 
 
 def where(span: Span) -> dict[str, object]:

@@ -9,10 +9,12 @@ from typing import Any
 
 from ros_lint.base.paths import is_below, upwards
 from ros_lint.cli.context import outermost_package, workspace_around
+from ros_lint.cli.messages import show
 from ros_lint.cli.progress import Progress
 from ros_lint.cli.session import Session, UsageError, open_workspace
 from ros_lint.cli.settings import ConfigError
 from ros_lint.knowledge.store import KnowledgeError
+from ros_lint.reporters.ansi import harmless
 from ros_lint.workspace.model import Workspace
 
 CommandOutput = tuple[str, str, int]
@@ -31,13 +33,13 @@ def run_query(options: Mapping[str, Any], answer: Callable[[Session, Workspace],
             workspace = session.loader.load(sources=sources)
         out, err, code = answer(session, workspace)
     except (UsageError, ConfigError, KnowledgeError) as error:
-        print(f"ros-lint: {error}", file=sys.stderr)
+        show(str(error))
         return 2
     for warning in (*session.settings.warnings, *session.warnings, *session.cache.notes):
-        print(f"ros-lint: {warning}", file=sys.stderr)
-    sys.stdout.write(out)
+        show(warning)
+    sys.stdout.write(harmless(out))
     sys.stdout.flush()
-    sys.stderr.write(err)
+    sys.stderr.write(harmless(err))
     return code
 
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.base.suggestions import did_you_mean, similar_names
@@ -22,6 +21,7 @@ from ros_lint.cli.commands.launch.expanded import ExpandedFile
 from ros_lint.cli.commands.launch.lookup import LaunchFileLookup
 from ros_lint.cli.commands.launch.marks import Marks, marks_of
 from ros_lint.cli.commands.query import CommandOutput, current_workspace, enclosing_workspace, run_query
+from ros_lint.cli.messages import show
 from ros_lint.cli.session import Session, UsageError
 from ros_lint.collectors.launch.expand import expand
 from ros_lint.collectors.symbolic_text import readable
@@ -64,7 +64,7 @@ def run(options: Mapping[str, Any]) -> int:
         request = parse_launch_request(options["words"], os.path.isfile)
         paths = options.get("paths") or [current_workspace() if request.package else enclosing_workspace(request.file)]
     except UsageError as error:
-        print(f"ros-lint: {error}", file=sys.stderr)
+        show(str(error))
         return 2
 
     def answer_request(session: Session, workspace: Workspace) -> CommandOutput:
