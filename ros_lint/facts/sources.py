@@ -165,6 +165,34 @@ class ParameterFile(NamedTuple):
     """Reasons why rcl_yaml_param_parser refuses the file, so that a node that reads the file stops."""
 
 
+class DeclaredParameter(NamedTuple):
+    """A call in C++ or Python code that declares a parameter of a node."""
+
+    name: str
+    """Name of the parameter."""
+    type: ParameterType
+    """Type that values of the parameter must have; "" if it is unknown, or if the type may change (``dynamic_typing``)."""
+    span: Span
+    """Place of the name."""
+
+
+class NodeCode(NamedTuple):
+    """The nodes and parameters in a C++ or Python file."""
+
+    path: str
+    """Path of the file, relative to the base folder of the run."""
+    names: tuple[str, ...] = ()
+    """Names that the file gives to nodes, as in ``Node("driver")``."""
+    declared: tuple[DeclaredParameter, ...] = ()
+    """Parameters that the file declares with a literal name."""
+    words: tuple[str, ...] = ()
+    """String literals in the file that may be names of parameters or parts of them, sorted."""
+    complete: bool = True
+    """False if the file may declare parameters whose names are computed, or accepts parameters that are not declared."""
+    topics: tuple[str, ...] | None = ()
+    """Names of the topics, services and actions that the file creates, sorted; None if some of them are computed."""
+
+
 class Registration(NamedTuple):
     """A C++ macro call that makes a class loadable: RCLCPP_COMPONENTS_REGISTER_NODE or PLUGINLIB_EXPORT_CLASS."""
 
@@ -211,5 +239,7 @@ class FileFacts(NamedTuple):
     loaders: tuple[PluginLoader, ...] = ()
     types: tuple[ImportedType, ...] = ()
     """Message, service and action types that the file imports by name."""
+    nodes: NodeCode | None = None
+    """Nodes and parameters in the file if it is C++ or Python code with nodes or parameters, else None."""
     interface: InterfaceFile | None = None
     """Contents of the file if it is a .msg, .srv or .action file, else None."""

@@ -142,6 +142,7 @@ class Join:
             interface_files=tuple([f.interface for f in read_package.facts.values() if f.interface is not None]),
             lookups=tuple([look_up for facts in read_package.facts.values() for look_up in facts.lookups]),
             parameter_files=tuple([f.parameters for f in read_package.facts.values() if f.parameters is not None]),
+            node_code=tuple([f.nodes for f in read_package.facts.values() if f.nodes is not None]),
             unusable_headers=public_headers.unusable(source.built, read_package.facts, discovered.files),
             machine_paths=read_package.machine_paths,
             compiled_headers=files.headers_by_source(),

@@ -17,7 +17,7 @@ from ros_lint.facts.cmake import Call
 from ros_lint.facts.interfaces import InterfaceFile
 from ros_lint.facts.launch import LaunchFile
 from ros_lint.facts.manifest import ColconDepend, Depend, Manifest, Role
-from ros_lint.facts.sources import ImportedType, LookUp, MachinePath, ParameterFile, PluginLoader, Registration, Use
+from ros_lint.facts.sources import ImportedType, LookUp, MachinePath, NodeCode, ParameterFile, PluginLoader, Registration, Use
 from ros_lint.facts.visibility import Facet, Opaque
 from ros_lint.workspace.side_by_side import workspace_of
 from ros_lint.workspace.target import NamedDistro, TargetDistro, UnreadFile
@@ -108,6 +108,8 @@ class Package(NamedTuple):
     """Files of packages that models, RViz configurations and parameter files refer to, e.g. ``package://robot/meshes/arm.stl``."""
     parameter_files: tuple[ParameterFile, ...] = ()
     """The YAML files of the package."""
+    node_code: tuple[NodeCode, ...] = ()
+    """The C++ and Python files of the package with nodes or parameters of nodes."""
     machine_paths: tuple[MachinePath, ...] = ()
     """Paths in files of the package that exist on one machine only, e.g. ``/home/me/maps``."""
     unusable_headers: tuple[str, ...] = ()

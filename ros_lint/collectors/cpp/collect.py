@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.cpp.includes import Include, scan_includes
 from ros_lint.collectors.cpp.lookups import loaders, look_ups
+from ros_lint.collectors.cpp.nodes import node_code
 from ros_lint.collectors.cpp.registrations import registrations, wrapper_macros
 from ros_lint.collectors.cpp.symbols import symbols
 from ros_lint.collectors.suffixes import SOURCES
@@ -48,7 +49,7 @@ def collect(source: Text) -> FileFacts:
         included += packages
         included.sort(key=_place)
     opaque = (_opaque(source, scan.computed) if scan.computed else ()) + wrapper_macros(source)
-    return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=plugin_loaders)
+    return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=plugin_loaders, nodes=node_code(source))
 
 
 def _implements(path: str, included: Iterable[Mention]) -> bool:

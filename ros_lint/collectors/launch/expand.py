@@ -35,6 +35,7 @@ def expand(
     *,
     brief: bool = False,
     contents: Contents | None = None,
+    node_name: Callable[[str, str], str] = lambda package, target: "",
 ) -> Expansion:
     """Return the actions that a launch file starts if it is launched with the arguments ``passed``.
 
@@ -42,8 +43,9 @@ def expand(
     placeholder for the install prefix of its package. ``brief`` omits parameters (except parameter files), remappings and the
     arguments of included files, because they take most of the time. ``distro`` is the value of ROS_DISTRO, "" if it is
     unknown. ``contents`` returns a parameter file by its path; without it, the final parameters of nodes are not computed.
+    ``node_name`` returns the name that a program or component gives to its node, "" if it is unknown.
     """
-    run = _Run(files, brief, contents, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
+    run = _Run(files, brief, contents, node_name, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
     run.file(file, {name: (value,) for name, value in passed.items()})
     return Expansion(
         tuple(run.started),
@@ -75,11 +77,13 @@ class _Run:
         files: Callable[[str], LaunchFile | None],
         brief: bool,
         contents: Contents | None,
+        node_name: Callable[[str, str], str],
         environment: Mapping[str, Texts],
     ) -> None:
         self._files = files
         self._brief = brief
         self._contents = contents
+        self._node_name = node_name
         self._filling = Filling(environment)
         self._texts = self._filling.texts
         self._open: list[tuple[str, dict[str, Texts]]] = []
@@ -376,7 +380,11 @@ class _Run:
         self, started: Started, given: Sequence[GivenParameter], scope: LaunchScope, contents: Contents
     ) -> FinalParameters:
         renamed = any(is_node_renaming(text) for texts in started.words for text in texts)
-        node = NodeNames(() if renamed else started.name, started.namespace, started.target)
+        names = () if renamed else started.name
+        if not renamed and (not names or "" in names) and len(started.package) == len(started.target) == 1:
+            own_name = self._node_name(started.package[0], started.target[0])
+            names = tuple([name or own_name for name in names or ("",)]) if own_name else names
+        node = NodeNames(names, started.namespace, started.target)
         return final_parameters(
             node,
             (*of_command_line(started.words), *given),

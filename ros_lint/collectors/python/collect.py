@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors.python.import_tree import Import, walk
 from ros_lint.collectors.python.imports import IMPORTED_NAMES, added_folders, scan
 from ros_lint.collectors.python.lookups import Found, in_excerpt, literals, look_ups
+from ros_lint.collectors.python.nodes import node_code
 from ros_lint.collectors.python.source_errors import NotPythonError, TooDeepError
 from ros_lint.collectors.python.syntax import parse, refusal
 from ros_lint.collectors.python.unused_imports import unused_imports
@@ -78,6 +79,7 @@ def collect(source: Text, *, launch: bool = False) -> FileFacts:
         sets_path="sys.path" in source.text,
         programs=_programs(source.text),
         types=tuple(_types(source, zip(named, spans, strict=True))),
+        nodes=None if launch else node_code(source),
     )
 
 
