@@ -23,7 +23,9 @@ from ros_lint.analysis.launch.files import (
     used_files,
 )
 from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, substitute
+from ros_lint.analysis.launch.parameter_checks import Undeclared, WrongType, undeclared, unmatched_nodes, wrong_types
 from ros_lint.analysis.launch.parameter_files import NodeParameterFile, ParameterFiles
+from ros_lint.analysis.launch.remappings import UnusedRemapping, unused_remappings
 from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
 from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes, scope_leaks
 from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
@@ -49,6 +51,9 @@ __all__ = [
     "PlacedInclude",
     "ScopeLeaks",
     "SimilarRead",
+    "Undeclared",
+    "UnusedRemapping",
+    "WrongType",
     "are_consistent",
     "argument_use",
     "assigned_configurations",
@@ -76,7 +81,11 @@ __all__ = [
     "run_launch_files",
     "scope_leaks",
     "substitute",
+    "undeclared",
+    "unmatched_nodes",
+    "unused_remappings",
     "used_files",
     "values_of_action",
     "walk_actions",
+    "wrong_types",
 ]

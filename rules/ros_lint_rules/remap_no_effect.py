@@ -3,6 +3,8 @@
 
 - A remapping of a name to itself. If the launch file has an argument of that name, `$(var name)` was probably intended.
 - A remapping that cannot be parsed: an empty name, or a name with white space.
+- A remapping of a name that is no topic, service or action of the node, with medium confidence. Only nodes of the workspace
+  count whose code uses no other packages that create topics, and that names all its topics with literals.
 
 ## Why it matters
 
@@ -27,7 +29,7 @@ from collections.abc import Iterator
 from ros_lint.api import Confidence, Consequence, Finding, LaunchValue, Package, Rule, Severity, Span, Workspace, launch
 
 
-def check(package: Package, _: Workspace) -> Iterator[Finding]:
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for launch_file in launch.package_launch_files(package):
         actions = list(launch.walk_actions(launch_file.file.actions))
         declarations = [action.target for action in actions if action.kind == "argument" and action.target is not None]
@@ -40,6 +42,15 @@ def check(package: Package, _: Workspace) -> Iterator[Finding]:
             for before, after in pairs:
                 for finding in _of_pair(before, after, arguments):
                     findings.setdefault(finding.span, finding)
+        for unused in launch.unused_remappings(launch_file.file, workspace):
+            hint = f"; did you mean '{unused.meant}'?" if unused.meant else ", so it has no effect; remove it or correct the name"
+            finding = Finding(
+                f"'{unused.target}' uses no topic or service '{unused.value.texts[0]}'{hint}",
+                unused.value.span,
+                unused.value.texts[0],
+                confidence=Confidence.MEDIUM,
+            )
+            findings.setdefault(finding.span, finding)
         yield from findings.values()
 
 
