@@ -93,7 +93,8 @@ def _names(text: Text, start: int, end: int) -> Iterator[Name]:
 
 
 def _is_standalone(content: str, start: int, end: int) -> bool:
-    line_start = max(content.rfind("\n", 0, start), content.rfind("\r", 0, start)) + 1
+    line_start = content.rfind("\n", 0, start) + 1
+    line_start = max(line_start, content.rfind("\r", line_start, start) + 1)
     return not content[line_start:start].strip() and _BLANK.match(content, end) is not None
 
 

@@ -103,13 +103,14 @@ def collect(source: Text) -> InterfaceFile:
             InterfaceProblem(f"'{name}' is not a valid interface name; rename the file to '{better}'", file_start(path))
         )
     marks = [match.start() for match in _SEPARATOR.finditer(text)]
+    separators = frozenset(marks)
     separators_valid = len(marks) == _SEPARATORS[suffix]
     problems += () if separators_valid else _separation(source, text, suffix, marks)
     types: list[tuple[str, Span]] = []
     first_places: dict[tuple[str, int], int] = {}
     for match in _LINE.finditer(text):
         at = match.start()
-        if at in marks or (not separators_valid and _SIMILAR_SEPARATOR.match(text, at)):
+        if at in separators or (not separators_valid and _SIMILAR_SEPARATOR.match(text, at)):
             continue
         try:
             element = _element(match[0].rstrip())
@@ -154,7 +155,8 @@ def _separation(source: Text, text: str, suffix: str, marks: list[int]) -> Itera
     """
     count = _SEPARATORS[suffix]
     parts = {"msg": "a message has no parts", "srv": "a service has two parts", "action": "an action has three parts"}[suffix]
-    similar = [match for match in _SIMILAR_SEPARATOR.finditer(text) if match.start() not in marks]
+    separators = frozenset(marks)
+    similar = [match for match in _SIMILAR_SEPARATOR.finditer(text) if match.start() not in separators]
     if len(marks) > count:
         yield InterfaceProblem(f"there are too many lines '---'; {parts}", source.span(marks[count], marks[count] + 3))
     elif similar and len(marks) + len(similar) == count:
