@@ -244,6 +244,13 @@ def test_sort_orders_the_children_by_the_schema(text: str) -> None:
             "b",
             "  <depend>a</depend>\n  <depend>c</depend>\n  <exec_depend>b</exec_depend>\n  <exec_depend>m</exec_depend>",
         ),
+        (  # its own kind is sorted
+            "  <depend>a</depend>\n  <depend>c</depend>\n  <test_depend>z</test_depend>\n  <test_depend>y</test_depend>",
+            "depend",
+            "b",
+            "  <depend>a</depend>\n  <depend>b</depend>\n  <depend>c</depend>\n  <test_depend>z</test_depend>\n"
+            "  <test_depend>y</test_depend>",
+        ),
         (  # one of them is not
             "  <depend>a</depend>\n  <depend>c</depend>\n  <test_depend>z</test_depend>\n  <test_depend>y</test_depend>\n"
             "  <exec_depend>m</exec_depend>",

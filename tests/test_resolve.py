@@ -150,7 +150,7 @@ def test_an_unknown_package_is_a_provider_if_a_manifest_declares_it(via: Via, na
 def test_a_library_with_a_name_that_no_package_can_have_is_no_package() -> None:
     assert match("cmake", "Arm", Names(packages=("Arm",), declared=("Arm",))) == NOTHING
     assert match("symbol", "arm", Names(declared=("arm",))) == NOTHING
-    assert match("include", "arm.hpp", Names(declared=("arm.hpp", ""), resolutions={"": "elsewhere"})) == NOTHING
+    assert match("include", "arm.hpp", Names(resolutions={"arm.hpp": "elsewhere", "": "elsewhere"})) == NOTHING
 
 
 @pytest.mark.parametrize("resolution", ["known", "elsewhere", "end-of-life", "unknown", "unknowable"])

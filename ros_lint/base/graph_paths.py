@@ -41,7 +41,7 @@ def paths(successors: Callable[[str], Iterable[str]], start: str, end: str, most
             result.append(path)
             continue
         for successor in successors(path[-1]):
-            if successor in distance and (successor not in path or successor == end == start):
+            if successor in distance and (successor not in path or successor == end):
                 heappush(queue, (len(path) + distance[successor], (*path, successor)))
     return GraphPaths(tuple(result), True)
 
