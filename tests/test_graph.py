@@ -281,6 +281,31 @@ def test_an_unknown_condition_orders_but_makes_no_sure_cycle() -> None:
     assert (graph.cycles, graph.possible_cycles) == ((("a", "z"),), ())
 
 
+def test_uncertain_edges_that_close_no_cycle_are_respected() -> None:
+    maybe = '<depend condition="$WHO_KNOWS == 1">{0}</depend>'
+    lines = {"a": [maybe.format("z")], "z": [maybe.format("a")], "b": [maybe.format("y")], "y": []}
+    assert build([package(name, needed) for name, needed in lines.items()]).order == (("a", "y", "b", "z"), ())
+
+
+def test_a_certain_cycle_is_not_part_of_a_possible_one() -> None:
+    maybe = '<depend condition="$WHO_KNOWS == 1">{0}</depend>'
+    lines = {
+        "a": ["<depend>b</depend>"],
+        "b": ["<depend>a</depend>", maybe.format("c")],
+        "c": ["<depend>a</depend>"],
+        "d": [maybe.format("e")],
+        "e": ["<depend>d</depend>"],
+    }
+    graph = build([package(name, needed) for name, needed in lines.items()])
+    assert (graph.cycles, graph.possible_cycles) == ((("a", "b"),), (("d", "e"),))
+
+
+def test_a_member_of_a_group_does_not_depend_on_itself() -> None:
+    lines = ["<group_depend>g</group_depend>", "<member_of_group>g</member_of_group>"]
+    graph = build([package("a", lines), package("b", lines[1:])])
+    assert list(graph.edges) == [("a", "b")]
+
+
 def test_paths_are_all_simple_paths_shortest_first() -> None:
     for seed in range(200):
         random = Random(seed)

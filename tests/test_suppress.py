@@ -188,6 +188,8 @@ def test_suppressions_work_with_every_line_end(newline: str) -> None:
     for path, comment in (("a.py", f"# {MARK} so"), ("a.xml", f"<!-- {MARK} so -->"), ("a.cpp", f"// {MARK} so")):
         suppressions = single(path, newline.join(["", comment, "x = 1", ""]))
         assert (suppressions.lines, suppressions.reason) == ((2, 3), "so")
+        suppressions = single(path, newline.join(["x = 1", f"  {comment}", "x = 1", ""]))
+        assert suppressions.lines == (2, 3)
 
 
 def test_a_suppression_may_be_on_any_line_of_a_finding() -> None:
