@@ -53,8 +53,14 @@ def source(name: str, *files: str) -> PackageSource:
     return PackageSource(name, name, files, None, {}, (), "ament_cmake")
 
 
+def resolver_of(names: Names, *sources: PackageSource) -> Resolver:
+    resolver = Resolver(names)
+    resolver.renew(sources)
+    return resolver
+
+
 def match(via: Via, name: str, names: Names, *sources: PackageSource) -> ProviderMatch:
-    return Resolver(sources, names).match(via, name)._replace(what="")
+    return resolver_of(names, *sources).match(via, name)._replace(what="")
 
 
 # --- names that exist ----------------------------------------------------------------------------------------------
@@ -73,7 +79,7 @@ def match(via: Via, name: str, names: Names, *sources: PackageSource) -> Provide
 )
 @pytest.mark.parametrize("sure", [True, False])
 def test_a_name_belongs_to_its_providers(via: Via, name: str, provided: str, quotation: str, sure: bool) -> None:
-    resolver = Resolver((), Names(providers={provided: Providers(("first", "second"), sure=sure)}))
+    resolver = resolver_of(Names(providers={provided: Providers(("first", "second"), sure=sure)}))
     expected = ProviderMatch(("first", "second"), sure, quotation)
     assert resolver.match(via, name) == resolver.match(via, name) == expected
 
@@ -90,7 +96,7 @@ def test_a_name_belongs_to_its_providers(via: Via, name: str, provided: str, quo
     ],
 )
 def test_the_name_of_a_package_belongs_to_the_package(via: Via, name: str, quotation: str) -> None:
-    assert Resolver((), Names(packages=("tf2",))).match(via, name) == ProviderMatch(("tf2",), True, quotation)
+    assert resolver_of(Names(packages=("tf2",))).match(via, name) == ProviderMatch(("tf2",), True, quotation)
 
 
 def test_what_needs_no_package_has_no_provider() -> None:
@@ -155,7 +161,7 @@ def test_a_library_with_a_name_that_no_package_can_have_is_no_package() -> None:
 
 @pytest.mark.parametrize("resolution", ["known", "elsewhere", "end-of-life", "unknown", "unknowable"])
 def test_only_an_unknown_package_whose_files_are_looked_up_is_an_uncertain_provider(resolution: Resolution) -> None:
-    resolver = Resolver((), Names(resolutions={"arm": resolution}))
+    resolver = resolver_of(Names(resolutions={"arm": resolution}))
     assert resolver.looked_up("arm") == (ProviderMatch(("arm",), False, "arm") if resolution == "unknown" else NOTHING)
     assert resolver.looked_up("Arm") == NOTHING
 
