@@ -122,6 +122,18 @@ def test_headers_of_an_underlay_are_resolved(prefix: str) -> None:
     assert not world(prefixes=(prefix,)).by_include("odd_root/other.hpp").known
 
 
+def test_the_configuration_files_of_an_underlay_count_before_the_maps_of_names(prefix: str) -> None:
+    folder = Path(prefix) / "share/private_base/cmake"
+    folder.mkdir()
+    for name in ("Threads", "osqp", "rclcpp"):
+        (folder / f"{name}Config.cmake").touch()
+    result = world(prefixes=(prefix,))
+    assert result.by_cmake("Threads").names == ("private_base",)
+    assert (result.by_cmake("osqp").names, result.by_cmake("osqp").sure) == (("private_base", "osqp_vendor"), True)
+    assert world(member("private_base"), prefixes=(prefix,)).by_cmake("Threads").none_needed
+    assert world(member("rclcpp"), prefixes=(prefix,)).by_cmake("rclcpp").names == ("rclcpp",)
+
+
 @pytest.mark.parametrize(
     ("module", "names"),
     [
@@ -308,6 +320,14 @@ def test_a_module_of_the_workspace_may_also_be_that_of_a_released_package(
 )
 def test_a_correction_names_the_kind_of_the_mistake(wrong: str, python: bool, expected: Suggestion) -> None:
     assert world().meant(wrong, python=python) == expected
+
+
+def test_an_ambiguous_name_is_not_corrected() -> None:
+    both = (member("arm_a_msgs"), member("arm-a-msgs"))
+    assert world(both[0]).meant("Arm_A_Msgs") == Suggestion("arm_a_msgs", "spelling")
+    assert world(*both).meant("Arm_A_Msgs") is None
+    assert world(member("fleet_lidars")).meant("fleet_lidas") == Suggestion("fleet_lidars", "slip")
+    assert world(member("fleet_lidars"), member("fleet_lidass")).meant("fleet_lidas") is None
 
 
 def test_similar_names_begin_with_the_intended_one() -> None:
