@@ -164,6 +164,19 @@ def test_the_argument_that_decides_a_condition_is_named() -> None:
     assert "open because" not in ask(files, "p", "a.launch.xml", "sim:=true")[0]
 
 
+def test_actions_of_unknown_classes_are_listed() -> None:
+    python = """
+from launch import LaunchDescription
+from launch.actions import SetROSLogDir
+from vendor import Driver
+
+def generate_launch_description():
+    return LaunchDescription([Driver(model="a"), SetROSLogDir("/tmp")])
+"""
+    output, _, _ = ask(package("p", {"launch/a.launch.py": python}), "p", "a.launch.py")
+    assert "not analysed:\n  p/launch/a.launch.py:7:31: what Driver() starts is not known\n" in output
+
+
 def test_needed_environment_variables_are_listed() -> None:
     body = '<node pkg="q" exec="$(env PROGRAM)"/><set_env name="SET" value="1"/><node pkg="q" exec="$(env SET)$(env OTHER x)"/>'
     output, _, _ = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")

@@ -16,6 +16,8 @@ A launch file that the launch front end rejects:
 - It passes a function, a substitution or a boolean as a condition: `condition=lambda context: ...`.
 - It passes numbers, booleans or actions where strings are required: `default_value=True`, `LaunchConfiguration(argument)`.
 - It passes `launch_arguments` without `.items()`, `parameters` without a list, or an integer as the period of a timer.
+- `generate_launch_description()` returns nothing, or a method of the launch description is misspelt.
+- A condition is a text that is neither true nor false: `IfCondition('maybe')`. A parameter is an empty list.
 
 One rule reports all of them, because one mistake is enough for `ros2 launch` to stop before it starts anything.
 

@@ -40,7 +40,9 @@ from ros_lint.cli.commands.launch.expanded import (
 )
 from ros_lint.cli.commands.output import document, label, where
 from ros_lint.collectors.launch.final_parameters import FinalParameters
+from ros_lint.collectors.launch.python.import_checks import ACTIONS
 from ros_lint.collectors.symbolic_text import readable
+from ros_lint.facts.launch import walk_actions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -77,7 +79,11 @@ def _head(started: Started) -> str:
 
 def _unknown(expanded: ExpandedFile) -> list[tuple[str, Span]]:
     files = (expanded.file, *expanded.lookup.followed)
-    return list(dict.fromkeys((opaque.reason, opaque.span) for file in files for opaque in file.opaque))
+    places = [(opaque.reason, opaque.span) for file in files for opaque in file.opaque]
+    actions = walk_actions(action for file in files for action in file.actions)
+    names = ((action.name.texts[0], action.span) for action in actions if action.kind == "other" and action.name is not None)
+    places += [(f"what {name}() starts is not known", span) for name, span in names if name not in ACTIONS]
+    return list(dict.fromkeys(places))
 
 
 # --- tree ----------------------------------------------------------------------------------------------------------

@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from ros_lint.base.suggestions import ask_if_meant, similar_names
+from ros_lint.collectors.launch.expressions import means_true
 from ros_lint.collectors.launch.python.import_checks import ACTIONS, is_from_launch
 from ros_lint.collectors.launch.python.signatures import Signature, all_signatures
 from ros_lint.collectors.launch.python.substitutions import texts
@@ -23,7 +24,7 @@ from ros_lint.collectors.python.interpreter.recorder import are_unknown
 from ros_lint.collectors.python.interpreter.values import LaunchObject
 from ros_lint.collectors.python.string_values import callee, dotted
 from ros_lint.collectors.python.unbound_names import tried
-from ros_lint.collectors.symbolic_text import UNKNOWN
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
 from ros_lint.facts.visibility import Problem
 
 if TYPE_CHECKING:
@@ -127,6 +128,11 @@ def _wrong_type(launch_object: LaunchObject) -> Problem | None:
     for key, empty in _empty_lists(launch_object.written(-1, "parameters")) if name in _NODES else ():
         message = f"the parameter {key} is an empty list, whose type launch cannot determine; omit the parameter"
         return Problem("wrong-type", message, span_of(empty, launch_object.source))
+    if name in ("IfCondition", "UnlessCondition"):
+        word = launch_object.get(0, "predicate_expression")
+        if isinstance(word, str) and is_plain(word) and means_true(word) is None:
+            message = f"{name} does not accept '{word}'; pass 'true', 'false', '1', '0' or a substitution"
+            return Problem("wrong-type", message, span_of(launch_object.written(0, "predicate_expression"), launch_object.source))
     if name == "LaunchDescription":
         entities = launch_object.get(0, "initial_entities")
         if isinstance(entities, LaunchObject) and entities.name in ACTIONS:

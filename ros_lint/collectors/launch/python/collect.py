@@ -16,6 +16,7 @@ from ros_lint.collectors.launch.detect import entries
 from ros_lint.collectors.launch.presence_checks import is_guarded_by_presence
 from ros_lint.collectors.launch.python.actions import LAUNCHED, walker
 from ros_lint.collectors.launch.python.argument_checks import dropped_paths, rejected_arguments
+from ros_lint.collectors.launch.python.description_checks import description_problems
 from ros_lint.collectors.launch.python.import_checks import misplaced_imports
 from ros_lint.collectors.launch.python.library import PACKAGE_SUBSTITUTIONS
 from ros_lint.collectors.launch.python.meaning import LaunchLibraries
@@ -155,6 +156,7 @@ class _Interpretation:
         yield from wrong_texts(tree, self._source, self._machine.made)
         yield from wrong_conditions(tree, self._source, self._machine.made)
         yield from rejected_arguments(tree, self._source, self._machine.made)
+        yield from description_problems(tree, self._source)
         yield from dropped_paths(tree, self._source)
         yield from misplaced_imports(tree, self._source)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros_lint.collectors.python.interpreter.values import (
@@ -75,7 +76,7 @@ def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
     waiting, seen = [function], {function.node}
     while waiting:
         function = waiting.pop()
-        for name in {node.id for node in ast.walk(function.node) if isinstance(node, ast.Name)}:
+        for name in _names_in(function.node):
             around: Frame | None = function.frame
             while around is not None and name not in around.names:
                 around = around.outer
@@ -86,6 +87,12 @@ def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
                 seen.add(value.node)
                 waiting.append(value)
     return values
+
+
+@lru_cache(maxsize=512)
+def _names_in(node: ast.AST) -> tuple[str, ...]:
+    """Return the names in a definition, each once. A recursive search asks for them at every call."""
+    return tuple(dict.fromkeys(inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)))
 
 
 def _outline(names: dict[Any, Value], recorder: Recorder) -> Any:
