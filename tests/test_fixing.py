@@ -263,7 +263,13 @@ def test_a_fix_of_a_line_that_the_file_lacks_is_skipped() -> None:
 
 @pytest.mark.parametrize(
     ("package", "subject", "safe", "is_new"),
-    [("p", "x", True, True), ("p", "x", False, False), ("p", "aa", False, True), ("q", "aa", True, False)],
+    [
+        ("p", "x", True, True),
+        ("p", "x", False, False),
+        ("p", "aa", False, True),
+        ("q", "aa", True, True),
+        ("q", "x", True, False),
+    ],
 )
 def test_a_finding_whose_confidence_becomes_high_is_new_near_a_fix(package: str, subject: str, safe: bool, is_new: bool) -> None:
     def doubted(place: Package, workspace: Workspace) -> Iterator[Finding]:
