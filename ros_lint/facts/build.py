@@ -259,6 +259,8 @@ class CMakeBuild(NamedTuple):
     """True if the script calls a command that runs tests with an interpreter, judging by the name of the command."""
     includes_outside_package: bool = False
     """True if the script adds include directories that are in the source tree but outside the package."""
+    compiles_outside_package: bool = False
+    """True if the script compiles sources that are in the source tree but outside the package."""
     makes_nothing: bool = False
     """True if the script builds and installs nothing, and tests at most the style of the sources."""
 

@@ -148,6 +148,7 @@ def _result(run: Run, path: str) -> BuildScript:
             interpreted_tests=_interpreted_tests(run),
             runs_tests=any(map(_RUNS_TESTS.search, calls)),
             includes_outside_package=run.results.includes_outside_package,
+            compiles_outside_package=run.results.compiles_outside_package,
             makes_nothing=bool(calls) and _MAKES_NOTHING.issuperset(calls),
         ),
         opaque=tuple(opaques),

@@ -8,7 +8,7 @@ from ros_lint.collectors.interfaces import naming
 from ros_lint.facts.sources import Mention
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.model import Package
-from ros_lint.workspace.usage.visibility import problems_hide_uses
+from ros_lint.workspace.usage.visibility import problems_hide_uses, uses_code_outside
 
 
 def unused_finds(package: Package) -> Iterator[Mention]:
@@ -22,7 +22,9 @@ def unused_finds(package: Package) -> Iterator[Mention]:
     The result is empty if parts of the package that may use other packages could not be evaluated.
     """
     script = package.script
-    if script is None or problems_hide_uses(script) or package.builds_with != "ament_cmake" or package.hidden(Facet.USES):
+    if script is None or package.builds_with != "ament_cmake":
+        return
+    if problems_hide_uses(script) or uses_code_outside(script) or package.hidden(Facet.USES):
         return
     used = {name for use in package.uses if use.via not in _BY_SCRIPT for name in use.providers}
     reads_interfaces = _reads_interfaces(package)

@@ -51,6 +51,11 @@ _WITHOUT_USES: Final = ("/", ".dae", ".md", ".obj", ".pcd", ".pgm", ".png", ".rs
 """Ends of the paths of missing files and folders that cannot contain the name of a package."""
 
 
+def uses_code_outside(script: BuildScript) -> bool:
+    """Return whether a package compiles sources or includes headers outside of its folder, which may use any package."""
+    return script.cmake.compiles_outside_package or script.cmake.includes_outside_package
+
+
 def is_fully_visible(package: Package) -> bool:
     """Return whether ros-lint can evaluate everything in the build and the launch files that may use another package."""
     return is_build_visible(package) and not package.hidden(Facet.USES)
@@ -63,7 +68,7 @@ def is_build_visible(package: Package) -> bool:
     they are ignored.
     """
     manifest, script = package.manifest, package.script
-    if manifest is None or manifest.problems or script is None or problems_hide_uses(script):
+    if manifest is None or manifest.problems or script is None or problems_hide_uses(script) or uses_code_outside(script):
         return False
     launched = {launch.path for launch in package.launch}
     if any(opaque.span.path not in launched for opaque in package.hidden(Facet.USES)):

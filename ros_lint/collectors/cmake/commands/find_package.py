@@ -288,9 +288,7 @@ def _all_include_directories(run: Run, args: list[str]) -> None:
 
 def _include_directories(run: Run, args: list[str]) -> None:
     link(run, args)
-    for folder in filter(run.paths.is_outside_source, args):
-        run.results.includes_outside_package = True
-        run.hide(Facet.USES, "an include directory is outside of the package", run.place_of(folder))
+    run.results.includes_outside_package = run.results.includes_outside_package or any(map(run.paths.is_outside_source, args))
 
 
 def _link_all(run: Run, args: list[str]) -> None:

@@ -83,7 +83,7 @@ def _add_sources(run: Run, target: Properties, sources: list[str]) -> None:
         plain, certain = strip_mark(source)
         path = run.paths.source(plain)
         if run.paths.is_outside_source(plain):
-            run.hide(Facet.USES, "a source is outside of the package, where files are not read", run.place_of(source))
+            run.results.compiles_outside_package = True
         if path in run.paths.files:
             sources_so_far.append(path if certain else source[0] + path)
         elif path is not None and "$<" not in plain:
