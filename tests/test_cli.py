@@ -88,6 +88,7 @@ def test_version_and_help_are_printed() -> None:
     for command in COMMANDS:
         assert f"  {command} " in shown.stdout
         assert run(command, "--help").returncode == 0
+    assert "Print the JSON schema of the configuration file.\n" in run("schema", "--help").stdout
 
 
 HEAVY = {"networkx", "libcst", "lxml", "yaml", "importlib.metadata", "dataclasses", "json", "argparse"}

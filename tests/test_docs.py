@@ -53,6 +53,19 @@ def test_every_page_belongs_to_a_rule() -> None:
     assert {page.stem for page in PAGES.glob("*.md")} == {rule.name for rule in RULES} | {"README"}
 
 
+def test_the_comparison_has_numbers_or_a_reason_for_each_tool() -> None:
+    """An error that a tool raised is no result of a comparison."""
+    text = (ROOT / "docs" / "comparison.md").read_text("utf-8")
+    rows = [
+        line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith(("| ros-lint", "| colcon", "| deptry"))
+    ]
+    assert len(rows) >= 8
+    for _, *cells in rows:
+        assert all(map(str.isdigit, cells)) or (
+            set(cells[:-1]) == {"–"} and cells[-1].startswith(("not applicable: ", "not run: "))
+        )
+
+
 def test_the_table_of_settings_is_up_to_date(request: pytest.FixtureRequest) -> None:
     page = ROOT / "docs" / "settings.md"
     check(page, SETTINGS.sub(lambda _: docs.settings(OPTIONS), page.read_text("utf-8")), request)

@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from ros_lint.engine import registry
+
 ROOT = Path(__file__).parents[1]
 
 
@@ -34,7 +36,7 @@ def test_the_site_builds_without_warnings(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(tmp_path / "site")]
     process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert (process.returncode, process.stderr) == (0, "")
-    assert (tmp_path / "site" / "rules" / "undeclared-dependency" / "index.html").exists()
+    assert all((tmp_path / "site" / "rules" / rule.name / "index.html").exists() for rule in registry.load())
 
 
 class _Tags(HTMLParser):
