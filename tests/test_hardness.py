@@ -46,6 +46,7 @@ INPUTS: Final = {
     "a banner before a token error": _script("#" * 78 + "\n# Subdirectories\n" + "#" * 78 + '\n\n"(BUILD_TESTING)\n'),
     "setup.py: brackets": {"r/setup.py": "x=" + "[" * 1_500 + "]" * 1_500},
     "setup.py: attributes": {"r/setup.py": "x = a" + ".b" * 10_000},
+    "setup.py: alternatives of a sum": {"r/setup.py": _setup("while True:\n    x = x + x if 'x' in globals() else 'a'")},
     "setup.py: elif": {"r/setup.py": "if a: pass\n" + "elif b: pass\n" * 3_000},
     "colcon.pkg: dashes": {"q/colcon.pkg": "- " * 25_000},
     "colcon.meta: dashes": {"colcon.meta": "- " * 25_000},

@@ -55,6 +55,8 @@ INSTALLED = "installed packages"
 
 _NUMBERS = (int, float, bool)
 _MOST_ITEMS = 5_000
+_STEPS_A_PAIR = 4
+"""Steps of the budget to combine an alternative of one operand with one of the other operand."""
 
 
 def each(value: Value, function: Callable[[Value], Value]) -> Value:
@@ -211,6 +213,8 @@ def operation(machine: Interpreter, op: ast.operator, left: Value, right: Value,
     elif isinstance(op, ast.Mod) and isinstance(left, str):
         for side in right if isinstance(right, tuple) else (right,):
             machine.record_misuse(side, "formatted", node, frame)
+    if isinstance(left, Union) and isinstance(right, Union):
+        machine.budget.step(len(left.values) * len(right.values) * _STEPS_A_PAIR)
     result = each(left, lambda side: each(right, lambda other: _single(machine, op, side, other, node, frame)))
     return machine.result(result, (left, right))
 

@@ -422,6 +422,11 @@ def union(values: Iterable[Value]) -> Value:
     return Union(tuple(results))
 
 
+def _together(conditions: Conditions, others: Conditions) -> Conditions:
+    """Return all conditions once. Without that, their number would double with each operation on a value with itself."""
+    return tuple(dict.fromkeys((*conditions, *others)))
+
+
 def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]:
     """Yield every alternative of a value with its conditions; a value without alternatives is yielded itself.
 
@@ -431,7 +436,8 @@ def alternatives(value: Value, conditions: Conditions = ()) -> Iterator[Guarded]
         for alternative in value.values:
             yield from alternatives(alternative, conditions)
     elif isinstance(value, Guarded):
-        yield from alternatives(value.value, (*conditions, *value.conditions))
+        both = conditions and value.conditions
+        yield from alternatives(value.value, _together(conditions, value.conditions) if both else conditions or value.conditions)
     else:
         yield Guarded(value, conditions)
 
