@@ -309,7 +309,10 @@ def test_syntax_errors_are_problems(text: str, line: int) -> None:
 )
 def test_an_include_of_a_neighbouring_file_is_not_opaque(path: str) -> None:
     _, launch_file = collect("a.launch.py", f"{HEAD}    return [IncludeLaunchDescription({path})]\n")
-    assert (launch_file.references, launch_file.opaque) == ((), ())
+    assert [(reference.kind, reference.package, reference.name) for reference in launch_file.references] == [
+        ("include", "", "b.launch.py")
+    ]
+    assert launch_file.opaque == ()
 
 
 def test_places_after_non_ascii_characters_are_exact() -> None:

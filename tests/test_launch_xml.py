@@ -53,7 +53,7 @@ def test_launch_files_are_recognised_by_content(path: str, text: str, expected: 
         ),
         ('<include file="$(find-pkg-share a)/launch/b.launch.py"/>', ["include a launch/b.launch.py"]),
         ('<include file="$(find-pkg-share a)/launch/$(var x).launch.py"/>', ["package a"]),
-        ('<include file="$(dirname)/b.launch.xml"/>', []),
+        ('<include file="$(dirname)/b.launch.xml"/>', ["include  b.launch.xml"]),
         (
             '<node pkg="a" exec="b"><param from="$(find-pkg-share c)/config/d.yaml"/></node>',
             ["node a b", "file c config/d.yaml"],

@@ -146,7 +146,7 @@ from ros_lint.api import Rule, Severity
 CALLS = []
 def check(package, workspace):
     if package.name == {package!r}:
-        CALLS.append(package)
+        CALLS.append(len(package.declared))  # what the fix changes, so that its trial runs the rule again
         if len(CALLS) == {call}:
             with open({path!r}, "w") as file:
                 file.write({text!r})
