@@ -249,7 +249,7 @@ def test_components_are_shown_with_their_containers() -> None:
 
 
 def test_reasons_of_unknown_values_are_shown() -> None:
-    body = xml('<node pkg="p" exec="$(env WHICH)"/><node pkg="p" exec="$(var nobody)"/>')
+    body = xml('<node pkg="p" exec="$(env WHICH)"/><node pkg="p" exec="$(var unset)"/>')
     output, _, code = ask(package("p", {"launch/a.launch.xml": body}), "p", "a.launch.xml")
     lines = [line.strip() for line in output.partition("\n\n")[0].splitlines()[1:]]
     assert code == 1
@@ -257,7 +257,7 @@ def test_reasons_of_unknown_values_are_shown() -> None:
         "node p ?",
         "? the environment variable 'WHICH' is not known",
         "node p ?",
-        "? the launch configuration 'nobody' is not set",
+        "? the launch configuration 'unset' is not set",
     ]
 
 

@@ -74,7 +74,7 @@ class Recorder:
     def __init__(self) -> None:
         self._answers: dict[Hashable, _Answer] = {}
         self.reads: dict[Cell, None] | None = None
-        """What the answer that is being computed has read so far, in order; None if no answer is being computed."""
+        """The reads of the current computation so far, in order; None outside of a computation."""
 
     def scope(self) -> Questions:
         """Return a collection of answers of its own: the same question in another scope is another question."""

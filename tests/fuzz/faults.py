@@ -359,7 +359,7 @@ def at_once(world: World, random: Random) -> None:
 
 
 def read_only(world: World, random: Random) -> None:
-    """Files or folders that nobody may write."""
+    """Files or folders without write permission."""
     places = [world.work / "ws", *(world.work / "ws").glob("*"), *(world.work / "ws").glob("*/*")]
     chosen = random.sample(places, random.randrange(1, len(places)))
     for place in chosen:
