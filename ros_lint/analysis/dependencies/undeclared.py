@@ -133,11 +133,14 @@ def distros_providing(package: Package, workspace: Workspace, name: str) -> tupl
 
 @cached_by_package
 def _declared_around(package: Package, workspace: Workspace) -> frozenset[str]:
-    """Return the names that the package declares, and the run-time and exported ones of its dependencies in the workspace."""
+    """Return the names that the package declares, and the run-time and exported ones of its dependencies in the workspace.
+
+    Packages of the workspace are left out, because their released versions may have other dependencies.
+    """
     closure = all_declared(package, workspace)
     around = [namesake for name, namesakes in workspace.by_name.items() if name in closure for namesake in namesakes]
     handed_on = [declared.name for other in around for declared in other.declared if declared.role & (Role.EXEC | Role.EXPORT)]
-    return frozenset([*(declared.name for declared in package.declared), *handed_on])
+    return frozenset([*(declared.name for declared in package.declared), *handed_on]).difference(workspace.by_name)
 
 
 def _joined(missing: Sequence[Need]) -> list[Need]:
