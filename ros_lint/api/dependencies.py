@@ -8,6 +8,7 @@ from ros_lint.analysis.dependencies.find_package import (
     finds_declared,
     found_only_through,
     macro_packages,
+    names_exported,
     names_searched,
     partial_closure,
 )
@@ -111,6 +112,7 @@ __all__ = [
     "misplaced",
     "misspelled_names",
     "name_suggests_no_trace",
+    "names_exported",
     "names_searched",
     "naming_fix",
     "needed_transitively",

@@ -146,12 +146,6 @@ def _is_seen(package: Package) -> bool:
     return not (script.hides(Facet.EXPORTS) or _EXPORTS_ALL.intersection(script.commands.names))
 
 
-def _exported(package: Package, script: BuildScript) -> set[str]:
-    """Return the CMake names of the packages that a package exports as dependencies, without the package itself."""
-    exported = {mention.name for mention in dependencies.macro_packages(script, "export", "interfaces")}
-    return exported.union(mention.name for mention, _ in script.exports.packages) - {package.name}
-
-
 def _linked(package: Package, workspace: Workspace, reported: Container[str]) -> Iterator[Lack]:
     """Yield findings about unexported packages whose targets an exported library links publicly.
 
@@ -162,7 +156,7 @@ def _linked(package: Package, workspace: Workspace, reported: Container[str]) ->
     if script is None or not _is_seen(package):
         return
     found = dependencies.names_searched(package, script)
-    closure = dependencies.partial_closure(workspace, _exported(package, script))
+    closure = dependencies.partial_closure(workspace, dependencies.names_exported(package, script), dependencies.names_exported)
     places: dict[str, list[Span]] = {}
     for name, span in _linked_publicly(package, workspace):
         if name in found and name not in reported and workspace.world.is_package(name):
@@ -192,7 +186,7 @@ def _linked_of_system(package: Package, workspace: Workspace) -> Iterator[str]:
     calls = [call.texts for call in package.calls("find_package", anywhere=True)]
     found = {texts[0] for texts in calls if texts and {"COMPONENTS", "OPTIONAL_COMPONENTS"}.isdisjoint(texts)}
     linked = dict.fromkeys([name for name, _ in _linked_publicly(package, workspace)])
-    exported = _exported(package, script)
+    exported = dependencies.names_exported(package, script)
     for name in linked:
         if name in found and name not in exported and not any(map(workspace.world.is_package, (name, name.lower()))):
             yield name
@@ -296,7 +290,7 @@ def _included(package: Package, workspace: Workspace) -> Iterator[Lack]:
     if script is None or not _is_seen(package):
         return
     by_cmake = workspace.world.by_cmake
-    exported = _exported(package, script)
+    exported = dependencies.names_exported(package, script)
     exported_packages = exported.union(*(dependencies.standing_for_first(workspace, by_cmake(name).names) for name in exported))
     finds = sorted(dependencies.names_searched(package, script))
     usable = _compilable_elsewhere(package, workspace, script)
@@ -341,7 +335,7 @@ def _can_be_found(package: Package, workspace: Workspace, name: str) -> bool:
 
 
 def _certainty(
-    package: Package, workspace: Workspace, name: str, exported: set[str], uses: list[Use]
+    package: Package, workspace: Workspace, name: str, exported: frozenset[str], uses: list[Use]
 ) -> tuple[Confidence, Severity | None]:
     """Return the confidence and the severity of the finding for a package that installed headers include.
 
@@ -350,7 +344,7 @@ def _certainty(
     """
     script = package.script
     assert script is not None
-    closure = dependencies.partial_closure(workspace, exported)
+    closure = dependencies.partial_closure(workspace, exported, dependencies.names_exported)
     provided = all(any(provider in closure for provider in use.providers) for use in uses)
     if provided:
         return Confidence.MEDIUM, Severity.INFO

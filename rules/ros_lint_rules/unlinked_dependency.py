@@ -36,7 +36,7 @@ Reported with medium confidence, because the headers may not be in a folder of t
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from ros_lint.api import (
     BuildTarget,
@@ -100,7 +100,7 @@ def _unlinked(
 
     ``needed``: the includes of these headers, by package.
     """
-    closure = dependencies.partial_closure(workspace, _with_found(workspace, linked))
+    closure = dependencies.partial_closure(workspace, linked, dependencies.names_searched)
     alone = not any(name in closure for name in workspace.by_name)
     for name, uses in needed.items():
         if name in closure or (not closure.complete and dependencies.may_provide(closure.unknown, name, workspace)):
@@ -118,22 +118,6 @@ def _unlinked(
             Fix.of(f"link '{name}' to '{target.name}'", edit),
             Confidence.HIGH if has_own_folder else Confidence.MEDIUM,
         )
-
-
-def _with_found(workspace: Workspace, linked: Sequence[str]) -> list[str]:
-    """Return the linked packages, and the packages that CMake finds in those of them that are in the workspace, even indirectly.
-
-    The targets of a package may link what its build script finds, even if its package.xml does not declare it.
-    """
-    result = dict.fromkeys(linked)
-    waiting = list(result)
-    while waiting:
-        for other in workspace.by_name.get(waiting.pop(), ()):
-            found = dependencies.names_searched(other, other.script) if other.script else ()
-            new = [name for name in found if name not in result]
-            result.update(dict.fromkeys(new))
-            waiting += new
-    return list(result)
 
 
 _GENERATED = re.compile(r"\w+/(?:msg|srv|action)/\w+\.h(?:pp)?\Z")

@@ -44,17 +44,40 @@ def find_package_closure(workspace: Workspace, names: Iterable[str]) -> frozense
     return closure.names.union(names) if closure.complete else None
 
 
-def partial_closure(workspace: Workspace, names: Iterable[str]) -> Closure:
+Passes = Callable[[Package, BuildScript], Iterable[str]]
+"""A function that returns the CMake names which the build script of a package passes on, such as :func:`names_exported`."""
+
+
+def partial_closure(workspace: Workspace, names: Iterable[str], passes: Passes = lambda package, script: ()) -> Closure:
     """Return the packages that ``find_package()`` of each name finds, with their transitive dependencies.
 
+    ``passes`` adds what packages of the workspace pass on in CMake, even indirectly, because a manifest need not declare it.
     ``Closure.unknown`` has the names without a known package, and the packages with unknown dependencies.
     """
     starts: set[str] = set()
-    for name in names:
+    for name in _with_passed_on(workspace, names, passes):
         providers = workspace.world.by_cmake(name)
         mapped = providers.known and not workspace.world.is_package(name)
         starts.update(set(standing_for_first(workspace, providers.names)).intersection(providers.packages) if mapped else (name,))
     return workspace.world.closure(sorted(starts))
+
+
+def names_exported(package: Package, script: BuildScript) -> frozenset[str]:
+    """Return the CMake names of the packages that a package exports as dependencies, without the package itself."""
+    exported = {mention.name for mention in macro_packages(script, "export", "interfaces")}
+    return frozenset(exported.union(mention.name for mention, _ in script.exports.packages) - {package.name})
+
+
+def _with_passed_on(workspace: Workspace, names: Iterable[str], passes: Passes) -> tuple[str, ...]:
+    """Return CMake names, and the names that packages of the workspace with these names pass on, even indirectly."""
+    result = dict.fromkeys(names)
+    waiting = list(result)
+    while waiting:
+        for package in workspace.by_name.get(waiting.pop(), ()):
+            new = [name for name in sorted(passes(package, package.script)) if name not in result] if package.script else []
+            result.update(dict.fromkeys(new))
+            waiting += new
+    return tuple(result)
 
 
 def finding_others(package: Package, workspace: Workspace, names: Iterable[str]) -> frozenset[str]:
