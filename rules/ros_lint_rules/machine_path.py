@@ -196,7 +196,8 @@ def _remedy(machine: MachinePath, inside: _Inside | None, file: str, package: Pa
     it_is += ": install it and " if _is_left_out(inside, workspace) else ": "
     if scheme := _scheme(inside, file):
         needs_xacro = scheme.startswith("$") and not file.endswith(".xacro")
-        condition = ", and process this file with xacro" if needs_xacro else _resource_path(scheme, inside, workspace)
+        by_xacro = ", in a template from which xacro makes this file" if file.endswith(_OF_GAZEBO) else _BY_XACRO
+        condition = by_xacro if needs_xacro else _resource_path(scheme, inside, workspace)
         return f"{it_is}write {scheme}/{inside.rest}{condition}"
     if _is_yaml(file) and not launch.is_launch_file(package, machine.span.path):
         return f"{it_is}pass the path from the launch file, which can look up the share directory of '{inside.package}'"
@@ -285,8 +286,9 @@ def _is_yaml(file: str) -> bool:
     return file.endswith((".yaml", ".yml"))
 
 
-_STAGED = re.compile(r"(?:^|/)(?:build|share/[^/]+/cmake)/")
-"""Pattern of paths to CMake files in a build folder or in an install prefix, which are generated."""
+_STAGED = re.compile(r"(?:^|/)(?:(?:build|CMakeFiles|share/[^/]+/cmake)/|(?:cmake_install|CTestTestfile)\.cmake\Z)")
+"""Pattern of paths to CMake files that a build generates, in a build folder or in an install prefix."""
+_BY_XACRO = ", and process this file with xacro"
 _RECORDS = frozenset({"experiment", "experiments"})
 """Names of folders with records of runs on one machine."""
 

@@ -39,6 +39,7 @@ Not reported:
 Reported with medium confidence:
 
 - rosdep keys that only headers need.
+- `<exec_depend>` on what only a `find_package()` without `REQUIRED` names, because CMake continues without it.
 - `<build_export_depend>` on what only installed headers include.
 - `<build_depend>` together with `<exec_depend>` for a rosdep key that is exported.
 
@@ -249,7 +250,8 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
         # The sources of the package may not need the headers that include it.
         handed_on = given & Role.EXPORT and all(use.role & Role.EXPORT for use in need.uses if _is_about(use, Role.BUILD))
         why = "but it is needed to build this package"
-        return _Lack(Role.BUILD, why, Confidence.MEDIUM if handed_on else Confidence.HIGH)
+        unsure = handed_on or _is_only_looked_for(package, need)
+        return _Lack(Role.BUILD, why, Confidence.MEDIUM if unsure else Confidence.HIGH)
     world = workspace.world
     packages = [name for name in need.declared if world.is_package(name)]
     if any(dependencies.is_traceless_by_name(world, name) for name in packages):
@@ -267,6 +269,13 @@ def _lacks(package: Package, workspace: Workspace, need: dependencies.Need, tags
             return _Lack(Role.EXPORT, why, Confidence.LOW, Severity.INFO)
         return _Lack(Role.EXPORT, "but packages that build against this package need it, too", Confidence.MEDIUM)
     return None
+
+
+def _is_only_looked_for(package: Package, need: dependencies.Need) -> bool:
+    """Return whether only calls of find_package() without REQUIRED use a package in the build."""
+    calls = package.calls("find_package", anywhere=True)
+    not_required = {call.span(0) for call in calls if call.args and "REQUIRED" not in call.texts}
+    return all(use.via == "cmake" and use.span in not_required for use in need.uses if _is_about(use, Role.BUILD))
 
 
 def _is_about(use: Use, role: Role) -> bool:
