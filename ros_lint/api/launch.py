@@ -28,8 +28,9 @@ from ros_lint.analysis.launch.parameter_files import NodeParameterFile, Paramete
 from ros_lint.analysis.launch.remappings import UnusedRemapping, unused_remappings
 from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
 from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes, scope_leaks
+from ros_lint.collectors.conditional_text import are_consistent
 from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
-from ros_lint.collectors.symbolic_text import are_consistent, configurations, is_node_renaming, is_plain
+from ros_lint.collectors.symbolic_text import configurations, is_node_renaming, is_plain
 from ros_lint.facts.launch import ACCEPTED_PROBLEMS, LAUNCH_RUNTIME, values_of_action, walk_actions
 
 if TYPE_CHECKING:

@@ -10,10 +10,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.budget import Budget
+from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.launch.expansion import Argument, Circle, Expansion, Missing, Refused, Started, Unset
 from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, Texts, final_parameters, of_command_line
 from ros_lint.collectors.launch.scope import COMPUTED, Filling, LaunchScope
-from ros_lint.collectors.symbolic_text import UNKNOWN, is_node_renaming, is_settled, joined
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_node_renaming, is_settled
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence

@@ -12,11 +12,11 @@ from functools import lru_cache
 from typing import Any, NamedTuple, NoReturn
 
 from ros_lint.base.text import Span, Text
+from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.launch.markup.entity import Entity, Rejected, Type
 from ros_lint.collectors.launch.markup.substitution_syntax import Literal, Substitution, SubstitutionError, parse
 from ros_lint.collectors.launch.markup.substitutions import Pieces, package_of, simple_text, texts
 from ros_lint.collectors.launch.markup.tags import EXTENSIONS, ROS_1, SINCE, SUBSTITUTIONS
-from ros_lint.collectors.symbolic_text import joined
 from ros_lint.facts.launch import LaunchAction, LaunchCondition, LaunchValue
 from ros_lint.facts.visibility import Problem
 

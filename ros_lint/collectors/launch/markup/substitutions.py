@@ -9,9 +9,10 @@ import re
 from collections.abc import Callable, Mapping
 
 from ros_lint.collectors import symbolic_text
+from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.launch.markup.substitution_syntax import Literal, Piece, Substitution, SubstitutionError, parse
 from ros_lint.collectors.launch.markup.tags import SUBSTITUTIONS
-from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, joined, quoted
+from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, quoted
 
 Pieces = tuple[Piece, ...]
 Texts = tuple[str, ...]

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.base.text import Span
-from ros_lint.collectors import symbolic_text
+from ros_lint.collectors import conditional_text
 from ros_lint.collectors.launch.expressions import means_true
 from ros_lint.collectors.launch.groups import group
 from ros_lint.collectors.launch.python import events, nodes
@@ -63,7 +63,9 @@ def _with_arguments(include: LaunchAction, arguments: Sequence[_PassedArgument])
 
     Arguments whose conditions contradict the conditions of the include are omitted.
     """
-    consistent = [argument for argument in arguments if symbolic_text.are_consistent((*include.conditions, *argument.conditions))]
+    consistent = [
+        argument for argument in arguments if conditional_text.are_consistent((*include.conditions, *argument.conditions))
+    ]
     return include._replace(
         arguments=tuple([(argument.name, argument.value) for argument in consistent]),
         argument_spans=tuple([argument.span for argument in consistent]),

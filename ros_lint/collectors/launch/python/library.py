@@ -13,6 +13,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors import symbolic_text
+from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.launch.python.substitutions import conditions_of
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS
 from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, nothing, unknown, unknown_text
@@ -34,7 +35,7 @@ from ros_lint.collectors.python.interpreter.values import (
     written,
 )
 from ros_lint.collectors.python.methods import CONSTANTS
-from ros_lint.collectors.symbolic_text import UNKNOWN, joined, presence
+from ros_lint.collectors.symbolic_text import UNKNOWN, presence
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:

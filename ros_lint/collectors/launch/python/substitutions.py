@@ -10,6 +10,7 @@ from typing import Any
 
 from ros_lint.base.budget import Budget
 from ros_lint.collectors import symbolic_text
+from ros_lint.collectors.conditional_text import distinct, joined
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     Conditions,
@@ -24,7 +25,7 @@ from ros_lint.collectors.python.interpreter.values import (
     plain,
     under,
 )
-from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, distinct, join_path, joined, quoted
+from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, join_path, quoted
 from ros_lint.facts.launch import LaunchCondition
 
 _MAX_DEPTH = 60

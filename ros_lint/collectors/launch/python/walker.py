@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.base.budget import Budget
 from ros_lint.base.text import Span, file_start
-from ros_lint.collectors import symbolic_text
+from ros_lint.collectors import conditional_text
 from ros_lint.collectors.launch.python.substitutions import TextEvaluation, conditions_of, texts
 from ros_lint.collectors.python import syntax as python_syntax
 from ros_lint.collectors.python.interpreter.values import (
@@ -147,9 +147,11 @@ class Walker:
         packages = self._alternatives(package)
         actions: list[LaunchAction] = []
         for text in targets:
-            conditions = symbolic_text.conditions_of(text)
+            conditions = conditional_text.conditions_of(text)
             together = tuple(
-                str(name) for name in packages if symbolic_text.are_consistent((*conditions, *symbolic_text.conditions_of(name)))
+                str(name)
+                for name in packages
+                if conditional_text.are_consistent((*conditions, *conditional_text.conditions_of(name)))
             )
             actions.append(
                 action._replace(
@@ -232,7 +234,7 @@ class Walker:
         combined = self.text(value, node, source)
         if len(combined.texts) == 1:
             return [combined]
-        pairs = [(text, symbolic_text.conditions_of(text)) for text in self._alternatives(value)]
+        pairs = [(text, conditional_text.conditions_of(text)) for text in self._alternatives(value)]
         if not all(conditions for _, conditions in pairs):
             return [combined]
         return [combined._replace(texts=(str(text),), conditions=conditions, guards=()) for text, conditions in pairs]
@@ -277,7 +279,7 @@ def _guards(texts: Iterable[str], choices: tuple[str, ...]) -> tuple[Conditions,
         return ()
     conditions: dict[str, Conditions] = {}
     for text in texts:
-        own = symbolic_text.conditions_of(text)
+        own = conditional_text.conditions_of(text)
         conditions[str(text)] = own if conditions.get(str(text), own) == own else ()
     guards = tuple([conditions[choice] for choice in choices])
     return guards if any(guards) else ()
@@ -289,7 +291,7 @@ def _merged(left: Conditions, right: Conditions) -> Conditions:
 
 def _depends(text: str) -> bool:
     """Return whether a text has conditions, and all of them can be evaluated once the launch arguments have values."""
-    conditions = symbolic_text.conditions_of(text)
+    conditions = conditional_text.conditions_of(text)
     return bool(conditions) and not any(UNKNOWN in part for condition in conditions for part in condition.texts)
 
 

@@ -6,9 +6,11 @@ import ast
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.conditional_text import are_consistent
 from ros_lint.collectors.python.interpreter.dictionaries import store
+from ros_lint.collectors.python.interpreter.elements import may_have_more
 from ros_lint.collectors.python.interpreter.methods import items, more, replace
-from ros_lint.collectors.python.interpreter.operations import hashable, may_have_more, operation
+from ros_lint.collectors.python.interpreter.operations import hashable, operation
 from ros_lint.collectors.python.interpreter.values import (
     Frame,
     Guarded,
@@ -25,7 +27,7 @@ from ros_lint.collectors.python.interpreter.values import (
     plain,
     union,
 )
-from ros_lint.collectors.symbolic_text import UNKNOWN, are_consistent, is_plain
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
 
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter

@@ -7,9 +7,11 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.python.interpreter.assignments import bind
 from ros_lint.collectors.python.interpreter.complements import opposite_of
 from ros_lint.collectors.python.interpreter.dictionaries import value_or_default
+from ros_lint.collectors.python.interpreter.elements import sliced, subscript
 from ros_lint.collectors.python.interpreter.methods import attribute, items, more
 from ros_lint.collectors.python.interpreter.operations import (
     INSTALLED,
@@ -18,8 +20,6 @@ from ros_lint.collectors.python.interpreter.operations import (
     hashable,
     negated,
     operation,
-    sliced,
-    subscript,
     text_of,
     texts_made,
     truth,
@@ -44,7 +44,7 @@ from ros_lint.collectors.python.interpreter.values import (
     union,
     written,
 )
-from ros_lint.collectors.symbolic_text import UNKNOWN, expression, joined, quoted
+from ros_lint.collectors.symbolic_text import UNKNOWN, expression, quoted
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:

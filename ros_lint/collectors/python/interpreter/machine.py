@@ -15,6 +15,7 @@ from contextlib import contextmanager, suppress
 
 from ros_lint.base.budget import Budget, BudgetExceeded
 from ros_lint.base.paths import parent
+from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.python.interpreter.branches import LEAVE
 from ros_lint.collectors.python.interpreter.builtins import BUILTINS
 from ros_lint.collectors.python.interpreter.expressions import EVALUATE
@@ -49,7 +50,7 @@ from ros_lint.collectors.python.interpreter.values import (
 )
 from ros_lint.collectors.python.syntax import placed
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY
-from ros_lint.collectors.symbolic_text import UNKNOWN, is_settled, join_path, joined
+from ros_lint.collectors.symbolic_text import UNKNOWN, is_settled, join_path
 from ros_lint.facts.launch import LaunchCondition
 
 STEPS = 150_000

@@ -7,18 +7,10 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.python.interpreter.dictionaries import entries, guarded, store, value_or_default
-from ros_lint.collectors.python.interpreter.operations import (
-    chosen,
-    hashable,
-    may_have_more,
-    of_sets,
-    text_of,
-    texts_made,
-    waits,
-    with_format,
-    without,
-)
+from ros_lint.collectors.python.interpreter.elements import chosen, may_have_more, waits, without
+from ros_lint.collectors.python.interpreter.operations import hashable, of_sets, text_of, texts_made, with_format
 from ros_lint.collectors.python.interpreter.ordering import arranged, is_known, is_small, unique
 from ros_lint.collectors.python.interpreter.path_functions import call_of_path, of_path
 from ros_lint.collectors.python.interpreter.values import (
@@ -49,16 +41,7 @@ from ros_lint.collectors.python.interpreter.values import (
     written,
 )
 from ros_lint.collectors.python.methods import LENGTH_PRESERVING, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS
-from ros_lint.collectors.symbolic_text import (
-    LONGEST,
-    UNKNOWN,
-    expression,
-    is_plain,
-    is_settled,
-    joined,
-    may_contain_place,
-    quoted,
-)
+from ros_lint.collectors.symbolic_text import LONGEST, UNKNOWN, expression, is_plain, is_settled, may_contain_place, quoted
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:

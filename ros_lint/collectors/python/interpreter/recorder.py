@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import Literal, NamedTuple
 
 from ros_lint.base.budget import Budget
+from ros_lint.collectors.conditional_text import are_consistent
 from ros_lint.collectors.python.interpreter.complements import complement
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -23,7 +24,7 @@ from ros_lint.collectors.python.interpreter.values import (
     environment,
     union,
 )
-from ros_lint.collectors.symbolic_text import UNKNOWN, are_consistent
+from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchCondition
 
 How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]

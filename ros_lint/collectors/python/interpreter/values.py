@@ -13,7 +13,8 @@ from pathlib import PurePosixPath
 from typing import Any, Final, NamedTuple
 
 from ros_lint.base.text import Span, Text
-from ros_lint.collectors.symbolic_text import MOST, UNKNOWN, are_consistent, conditional, conditions_of, configuration, is_plain
+from ros_lint.collectors.conditional_text import are_consistent, conditional, conditions_of
+from ros_lint.collectors.symbolic_text import MOST, UNKNOWN, configuration, is_plain
 from ros_lint.facts.launch import LaunchCondition
 
 Value = Any

@@ -11,6 +11,7 @@ from functools import reduce
 from typing import Final
 
 from ros_lint.base.text import Span
+from ros_lint.collectors.conditional_text import are_consistent
 from ros_lint.collectors.python.interpreter.values import (
     Conditions,
     Globbed,
@@ -24,7 +25,7 @@ from ros_lint.collectors.python.interpreter.values import (
     plain,
 )
 from ros_lint.collectors.setup_py.interpreter.expression_text import at
-from ros_lint.collectors.symbolic_text import UNKNOWN, are_consistent
+from ros_lint.collectors.symbolic_text import UNKNOWN
 
 REST: Final = UNKNOWN
 """The key that represents all unknown keys of a dictionary. The value of this key is an Unknown."""
