@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 
 import pytest
@@ -19,6 +20,8 @@ from ros_lint.collectors.launch.final_parameters import (
 from ros_lint.collectors.resources.parameter_files import collect
 from ros_lint.collectors.resources.parameter_values import type_of
 from ros_lint.facts.sources import ParameterFile
+from tests.packages import manifest_text
+from tests.test_launch_command import ask, xml
 
 
 def file(text: str) -> ParameterFile:
@@ -262,3 +265,20 @@ def test_substitutions_in_files_are_performed_only_if_allowed() -> None:
 def test_parameters_of_the_command_line() -> None:
     words = [("--ros-args",), ("-p",), ("a:=1",), ("--params-file",), ("f.yaml",), ("-p driver:b:=2",), ("c:=3",)]
     assert [(given.name, given.texts) for given in of_command_line(words)] == [("a", ("1",)), ("", ("f.yaml",)), ("b", ("2",))]
+
+
+def test_the_command_takes_the_name_that_the_code_gives_to_the_node() -> None:
+    files = {
+        "p/package.xml": manifest_text("p"),
+        "p/CMakeLists.txt": (
+            "project(p)\nfind_package(ament_cmake REQUIRED)\nadd_executable(program a.cpp)\n"
+            "install(TARGETS program DESTINATION lib/p)\ninstall(DIRECTORY launch DESTINATION share/p)\nament_package()\n"
+        ),
+        "p/a.cpp": 'auto node = rclcpp::Node("driver");\n',
+        "p/launch/p.yaml": "driver:\n  ros__parameters: {a: 1}\nother:\n  ros__parameters: {b: 2}\n",
+        "p/launch/a.launch.xml": xml('<node pkg="p" exec="program"><param from="$(find-pkg-share p)/launch/p.yaml"/></node>'),
+    }
+    started = json.loads(ask(files, "p", "a.launch.xml", form="json")[0])["starts"]
+    assert [(item["final"], item["final_unknown"]) for item in started] == [
+        ([{"name": "a", "values": ["1"], "certain": True, "path": "p/launch/p.yaml", "line": 2, "column": 21}], [])
+    ]

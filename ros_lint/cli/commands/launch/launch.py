@@ -121,15 +121,19 @@ def answer(
         file, place = lookup.installed_file(request.package, request.file)
     else:
         file, place = lookup.source_file(path), path
-    expansion = expand(
-        file._replace(path=place), request.arguments, lookup.included, workspace.target.distro, contents=lookup.parameters
-    )
+    expansion = _expand(file, place, request.arguments, lookup, workspace.target.distro)
     warnings = list(_argument_warnings(file, lookup, expansion, request.arguments))
     marks = marks_of(workspace, (file, *lookup.followed))
     problems = list(dict.fromkeys(_problems(file, lookup, expansion, marks)))
     err = "".join(f"ros-lint: {line}\n" for line in (*warnings, *problems))
     content = ExpandedFile(file, expansion, lookup, marks, workspace.target)
     return _output(content, place, request.arguments, options), err, 1 if problems else 0
+
+
+def _expand(file: LaunchFile, place: str, passed: Mapping[str, str], lookup: LaunchFileLookup, distro: str) -> Expansion:
+    """Return what a launch file at the path ``place`` starts, with the final parameters of its nodes."""
+    placed = file._replace(path=place)
+    return expand(placed, passed, lookup.included, distro, contents=lookup.parameters, node_name=lookup.node_name)
 
 
 def _output(content: ExpandedFile, place: str, arguments: Mapping[str, str], options: LaunchOptions) -> str:
@@ -145,13 +149,7 @@ def _output(content: ExpandedFile, place: str, arguments: Mapping[str, str], opt
     changeable = page.controls(content.expansion)
     while True:
         passed = {**arguments, **page.open_values(changeable)}
-        expansion = expand(
-            content.file._replace(path=place),
-            passed,
-            content.lookup.included,
-            content.target.distro,
-            contents=content.lookup.parameters,
-        )
+        expansion = _expand(content.file, place, passed, content.lookup, content.target.distro)
         if not (fixed := page.names_in_paths(expansion)):
             break
         changeable = tuple([control for control in changeable if control.name not in fixed])
