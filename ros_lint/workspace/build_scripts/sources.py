@@ -84,21 +84,19 @@ class Surroundings:
         return self._questions.ask(("files below", folder), lambda: sorted(self._gathered(folder)))
 
     def script(self, path: str) -> ParsedScript | None:
-        return self._questions.ask(("parsed outside", path), lambda: self._parsed(path))
+        return self._questions.ask(("parsed outside", path), lambda: self._parsed_outside(path))
 
     def parsed_in(self, package: DiscoveredPackage, file: str) -> ParsedScript | None:
         """Return the parsed CMake code in a file of a package, None if the package has no such file or it cannot be read."""
-        if file not in package.files:
-            return None
-        return self._questions.ask(("parsed", join(package.path, file)), lambda: self._parsed_file(join(package.path, file)))
+        path = join(package.path, file)
+        return self._questions.ask(("parsed", path), lambda: self._parsed(path)) if file in package.files else None
 
-    def _parsed_file(self, path: str) -> ParsedScript | None:
-        text = text_of(self._tree, path)
-        return parse(text) if text is not None else None
+    def _parsed_outside(self, path: str) -> ParsedScript | None:
+        inside = self.kind(path) == "file" and is_below(self._tree.identity(path), self._base)
+        return self._parsed(path) if inside else None
 
     def _parsed(self, path: str) -> ParsedScript | None:
-        inside = self.kind(path) == "file" and is_below(self._tree.identity(path), self._base)
-        text = text_of(self._tree, path) if inside else None
+        text = text_of(self._tree, path)
         return parse(text) if text is not None else None
 
     def _entries_of(self, folder: str) -> Mapping[str, Entry]:
@@ -143,7 +141,7 @@ def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
         package.name,
         package.path,
         package.files,
-        _Scripts(tree, package, parts.commands, surroundings),
+        _Scripts(package, parts.commands, surroundings),
         executables,
         version,
         build_depends,
@@ -158,10 +156,7 @@ def sources(tree: Tree, parts: Parts, surroundings: Surroundings) -> Sources:
 class _Scripts(Mapping[str, ParsedScript]):
     """The parsed CMake files of a package, by path. A file with another name, e.g. ``flags.txt``, is parsed on request."""
 
-    def __init__(
-        self, tree: Tree, package: DiscoveredPackage, parsed: Mapping[str, ParsedScript], surroundings: Surroundings
-    ) -> None:
-        self._tree = tree
+    def __init__(self, package: DiscoveredPackage, parsed: Mapping[str, ParsedScript], surroundings: Surroundings) -> None:
         self._package = package
         self._parsed = parsed
         self._surroundings = surroundings

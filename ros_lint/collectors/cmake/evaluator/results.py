@@ -54,8 +54,9 @@ class Results:
         self.bundled_projects: dict[str, None] = {}
         """Names of other projects that the build of the package also builds, such as those of FetchContent."""
         self.includes_outside_package = False
-        self.compiles_outside_package = False
         """True if some include directory is a source folder outside of the package."""
+        self.compiles_outside_package = False
+        """True if some target has a source file outside of the package."""
         self.interpreted_tests: dict[str, None] = {}
         """Files and folders with tests that are run by an interpreter, for example by pytest."""
         self.insertion: Span | None = None
