@@ -192,14 +192,21 @@ def _path(package: Package, workspace: Workspace, need: dependencies.Need) -> tu
     """
     best = need.uses[0]
     names, purpose = _declared_names(package, workspace), _purpose(best.role)
-    used = dict.fromkeys(
-        name for other in dependencies.needs(package, workspace) if other.role & purpose for name in other.declared
-    )
-    for starts in (names[purpose], {} if purpose & Role.TEST else used, names[_ANY]):
+    used = {} if purpose & Role.TEST else _used_names(package, workspace)[purpose]
+    for starts in (names[purpose], used, names[_ANY]):
         for name in sorted(best.providers, key=workspace.world.is_runtime_library):
             if path := workspace.world.path(starts, name):
                 return path
     return (need.name,)
+
+
+@cached_by_package
+def _used_names(package: Package, workspace: Workspace) -> Mapping[Role, Mapping[str, None]]:
+    """Return the declared names of the packages that a package uses, by the purpose of the uses."""
+    needs = [(need.role, need.declared) for need in dependencies.needs(package, workspace)]
+    return {
+        purpose: dict.fromkeys(name for role, declared in needs if role & purpose for name in declared) for purpose in _PURPOSES
+    }
 
 
 _ANY = ~Role(0)

@@ -42,9 +42,11 @@ class Need(NamedTuple):
     def role(self) -> Role:
         """All roles (build, run, test ...) of the certain uses, or of all uses if no use is certain."""
         uses = [use for use in self.uses if use.certain] or self.uses
-        role = Role(0)
+        role = last = uses[0].role
         for use in uses:
-            role |= use.role
+            if use.role is not last:  # members of enumerations are combined slowly
+                last = use.role
+                role |= last
         return role
 
 

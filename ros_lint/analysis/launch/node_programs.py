@@ -96,6 +96,7 @@ def _component_programs(package: Package) -> Iterator[tuple[str, str]]:
             yield name, plugin.removeprefix("::")
 
 
+@cached_by_package
 def is_closed(package: Package, workspace: Workspace) -> bool:
     """Return whether all code that declares parameters in the nodes of a package is known."""
     packages = with_used(package, workspace)
@@ -107,12 +108,14 @@ def is_closed(package: Package, workspace: Workspace) -> bool:
     )
 
 
+@cached_by_package
 def words_of(package: Package, workspace: Workspace) -> frozenset[str]:
     """Return the string literals in the code of a package and of the packages of the workspace that it uses."""
     return frozenset(word for owner in with_used(package, workspace) for code in owner.node_code for word in code.words)
 
 
-def with_used(package: Package, workspace: Workspace) -> list[Package]:
+@cached_by_package
+def with_used(package: Package, workspace: Workspace) -> tuple[Package, ...]:
     """Return a package and the packages of the workspace that its code uses, directly or not."""
     seen = {package.name: package}
     waiting = [package]
@@ -121,7 +124,7 @@ def with_used(package: Package, workspace: Workspace) -> list[Package]:
             for other in workspace.by_name.get(use.package, ()) if use.package not in seen else ():
                 seen[use.package] = other
                 waiting.append(other)
-    return list(seen.values())
+    return tuple(seen.values())
 
 
 _PASSIVE = frozenset({
@@ -139,6 +142,7 @@ def _is_passive(name: str) -> bool:
     return name in _PASSIVE or name.endswith(_PASSIVE_ENDINGS) or name.startswith(("python3-", "lib"))
 
 
+@cached_by_package
 def topics_of(package: Package, workspace: Workspace) -> frozenset[str] | None:
     """Return the topics, services and actions that the code of a package creates, with those of packages that it uses.
 

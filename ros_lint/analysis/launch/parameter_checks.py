@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.launch.node_programs import NodeProgram, is_closed, node_program, words_of
+from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.base.suggestions import similar_names
 from ros_lint.collectors.launch.final_parameters import matches
 from ros_lint.collectors.symbolic_text import is_node_renaming, is_plain
@@ -14,7 +15,7 @@ from ros_lint.facts.launch import walk_actions
 if TYPE_CHECKING:
     from ros_lint.analysis.launch.parameter_files import NodeParameterFile
     from ros_lint.facts.sources import DeclaredParameter, FileParameter
-    from ros_lint.workspace.model import Workspace
+    from ros_lint.workspace.model import Package, Workspace
 
 _ANY = frozenset({"/**", "**"})
 
@@ -142,11 +143,16 @@ def unmatched_nodes(uses: Sequence[NodeParameterFile], workspace: Workspace) -> 
             yield name
 
 
+@cached_by_workspace
 def _names_of_nodes(workspace: Workspace) -> frozenset[str]:
     """Return all texts that may be names of nodes: those in launch files, and the string literals in code."""
-    words = {word for package in workspace.packages for code in package.node_code for word in (*code.words, *code.names)}
-    for package in workspace.packages:
-        for file in package.launch:
-            for action in walk_actions(file.actions):
-                words.update(action.name.texts if action.name is not None else ())
+    return frozenset().union(*[_names_in_package(package, workspace) for package in workspace.packages])
+
+
+@cached_by_package
+def _names_in_package(package: Package, _: Workspace) -> frozenset[str]:
+    words = {word for code in package.node_code for word in (*code.words, *code.names)}
+    for file in package.launch:
+        for action in walk_actions(file.actions):
+            words.update(action.name.texts if action.name is not None else ())
     return frozenset(words)

@@ -49,7 +49,9 @@ def collect(source: Text) -> FileFacts:
         included += packages
         included.sort(key=_place)
     opaque = (_opaque(source, scan.computed) if scan.computed else ()) + wrapper_macros(source)
-    return FileFacts(tuple(included), opaque, registrations(source, code), files, loaders=plugin_loaders, nodes=node_code(source))
+    return FileFacts(
+        tuple(included), opaque, registrations(source, code), files, loaders=plugin_loaders, nodes=node_code(source, code)
+    )
 
 
 def _implements(path: str, included: Iterable[Mention]) -> bool:

@@ -15,7 +15,7 @@ from ros_lint.base.text import Span
 from ros_lint.facts.sources import Mention
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence, Set
+    from collections.abc import Iterable, Sequence, Set
 
     from ros_lint.base.text import Text
 
@@ -40,6 +40,8 @@ _TOKENS = re.compile(
     |\\\r?\n""",
     re.VERBOSE | re.DOTALL | re.MULTILINE,
 )
+_MARKS = ("//", "/*", 'R"', "\\\n", "\\\r")
+"""The beginnings of what :func:`blank_comments` replaces."""
 # The rarer character is first, because the regular expression engine searches a literal fast.
 _RAW = re.compile(r'"(?<=R")([^()\\\s]{0,16})\(')
 _COMMENT = re.compile(r"\*(?<=/\*)")
@@ -222,7 +224,33 @@ def blank_comments(text: str) -> str:
 
     Offsets are unchanged.
     """
-    return _TOKENS.sub(_blank, text)
+    return _TOKENS.sub(_blank, text) if any(mark in text for mark in _MARKS) else text
+
+
+def blank_comments_near(text: str, places: Iterable[int], code: Sequence[int]) -> str:
+    """Return the text like :func:`blank_comments`, but at least in the 500 characters after each of the offsets ``places``.
+
+    ``code`` has sorted offsets that are certainly outside of comments and strings. If a place may be in a comment, the
+    comments of the whole text are blanked.
+    """
+    starts = sorted(places)
+    clear = sorted([*code, *starts])  # each place is checked after those before it
+    if any(may_be_comment(text, at, clear) for at in starts):
+        return blank_comments(text)
+    parts, end = [], 0
+    for at, near in _joined(starts):
+        parts += [text[end:at], blank_comments(text[at:near])]
+        end = near
+    return "".join([*parts, text[end:]])
+
+
+def _joined(starts: Sequence[int]) -> list[tuple[int, int]]:
+    """Return the ranges of 500 characters from each of the sorted offsets, with overlapping ranges joined."""
+    result: list[tuple[int, int]] = []
+    for at in starts:
+        first = result.pop()[0] if result and at <= result[-1][1] else at
+        result.append((first, at + 500))
+    return result
 
 
 def may_be_comment(text: str, at: int, code: Sequence[int] = ()) -> bool:

@@ -5,27 +5,38 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final
 
-from ros_lint.collectors.cpp.includes import blank_comments
+from ros_lint.collectors.cpp.includes import blank_comments_near
 from ros_lint.facts.sources import DeclaredParameter, NodeCode, ParameterType
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ros_lint.base.text import Text
 
-_NAME = re.compile(r'\b(?:[A-Z]\w*)?Node(?:\s*>)?(?:::make_shared|\s+\w+)?\s*[({]\s*"(\w+)"')
+# Each expression begins with a literal, because the regular expression engine searches a literal fast.
+_NODE: Final = r"Node(?:\s*>)?(?:::make_shared|\s+\w+)?\s*[({]"
+_NAMED = re.compile(_NODE + r'\s*["/]')
+_NAME = re.compile(_NODE + r'\s*"(\w+)"')
+_CLASS = re.compile(r"(?<!\w)(?:[A-Z]\w*)?\Z")
+"""Matches the beginning of the name of a class that ends in Node."""
 _DECLARE = re.compile(
     r"""declare_(?:or_get_)?parameter(?:_if_not_declared)?\s*
     (?:<\s*((?:[\w:\s]|<[\w:\s]*>)+?)\s*>)?\s*
     \(\s*(?:[\w.>()-]+\s*,\s*)?"([\w./-]+)"\s*([,)])""",
     re.VERBOSE,
 )
-_COUNT = re.compile(r"\bdeclare_(?:or_get_)?parameters?(?:_if_not_declared)?\s*[<(]")
-_CREATES = re.compile(
-    r"\b(?:create_(?:generic_)?(?:publisher|subscription|service|client|server)|Subscriber)\s*[<(]|\bsubscribe\s*\("
+_CALL = re.compile(r"declare_(?:or_get_)?parameter")
+_COUNT = re.compile(r"declare_(?<!\wdeclare_)(?:or_get_)?parameters?(?:_if_not_declared)?\s*[<(]")
+_CREATES = (
+    re.compile(r"create_(?<!\wcreate_)(?:generic_)?(?:publisher|subscription|service|client|server)\s*[<(]"),
+    re.compile(r"Subscriber(?<!\wSubscriber)\s*[<(]"),
+    re.compile(r"subscribe(?<!\wsubscribe)\s*\("),
 )
-"""Matches the beginning of a call that creates a topic, service or action (rclcpp, rclcpp_action, message_filters)."""
+"""Match the beginning of a call that creates a topic, service or action (rclcpp, rclcpp_action, message_filters)."""
 _TOPIC = re.compile(r"""\w+\s*(?:<(?:[^<>();]|<[^<>();]*>)*>)?\s*\(\s*(?:[\w.>()-]+\s*,\s*)?"([^"\n]+)"\s*[,)]""")
 _WORD = re.compile(r'"([\w./]*\w)"')
 _OPEN: Final = ("automatically_declare_parameters_from_overrides", "allow_undeclared_parameters")
+_DYNAMIC: Final = ("dynamic_typing", "ParameterTypeException")
 _TYPES: dict[str, ParameterType] = {
     "bool": "bool",
     "double": "double",
@@ -53,31 +64,38 @@ _LITERAL: tuple[tuple[re.Pattern[str], ParameterType], ...] = (
 _WRAPPED = re.compile(r"(?:rclcpp::)?ParameterValue\s*[({]\s*(.*?)\s*[)}]", re.DOTALL)
 
 
-def node_code(source: Text) -> NodeCode | None:
-    """Return the node names and declared parameters in a C++ file, None if it has neither."""
+def node_code(source: Text, code: Sequence[int] = ()) -> NodeCode | None:
+    """Return the node names and declared parameters in a C++ file, None if it has neither.
+
+    ``code`` has sorted offsets that are certainly outside of comments and strings.
+    """
     text = source.text
-    has_parameters = "arameter" in text
-    words = tuple(sorted(set(_WORD.findall(text)))) if has_parameters else ()
-    has_calls = has_parameters and _COUNT.search(text) is not None
-    has_names = "Node" in text and _NAME.search(text) is not None
-    has_topics = _CREATES.search(text) is not None
-    if not (words or has_calls or has_names or has_topics):
+    words = tuple(sorted(set(_WORD.findall(text)))) if "arameter" in text else ()
+    calls = [match.start() for match in _CALL.finditer(text)]
+    names = [match.start() for match in _NAMED.finditer(text)]
+    topics = [match.start() for pattern in _CREATES for match in pattern.finditer(text)]
+    if not (words or calls or names or topics):
         return None
-    code = blank_comments(text) if has_calls or has_names or has_topics else text
-    matches = list(_DECLARE.finditer(code)) if has_parameters else []
-    names = tuple(dict.fromkeys(match[1] for match in _NAME.finditer(code)))
-    is_dynamic = "dynamic_typing" in code or "ParameterTypeException" in code
+    options = [at for word in (*_OPEN, *_DYNAMIC) if (at := text.find(word)) >= 0]
+    clean = blank_comments_near(text, [*calls, *names, *topics, *options], code)
+    matches = list(_DECLARE.finditer(clean)) if calls else []
+    is_dynamic = any(word in clean for word in _DYNAMIC)
     spans = source.spans([match.span(2) for match in matches])
     declared = [
-        DeclaredParameter(match[2], "" if is_dynamic else _type(match, code), span)
+        DeclaredParameter(match[2], "" if is_dynamic else _type(match, clean), span)
         for match, span in zip(matches, spans, strict=True)
     ]
-    complete = len(matches) == len(_COUNT.findall(code)) and not any(word in code for word in _OPEN)
-    return NodeCode(source.path, names, tuple(declared), words, complete, _topics(code) if has_topics else ())
+    complete = len(matches) == len(_COUNT.findall(clean)) and not any(word in clean for word in _OPEN)
+    return NodeCode(source.path, _names(clean), tuple(declared), words, complete, _topics(clean) if topics else ())
+
+
+def _names(code: str) -> tuple[str, ...]:
+    found = [match for match in _NAME.finditer(code) if _CLASS.search(code, max(match.start() - 100, 0), match.start())]
+    return tuple(dict.fromkeys([match[1] for match in found]))
 
 
 def _topics(code: str) -> tuple[str, ...] | None:
-    named = [_TOPIC.match(code, match.start()) for match in _CREATES.finditer(code)]
+    named = [_TOPIC.match(code, match.start()) for pattern in _CREATES for match in pattern.finditer(code)]
     return tuple(sorted({match[1] for match in named if match is not None})) if all(named) else None
 
 

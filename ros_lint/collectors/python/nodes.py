@@ -8,7 +8,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Final
 
 from ros_lint.base.text import Span
+from ros_lint.collectors.python.scopes import nodes
 from ros_lint.collectors.python.source_errors import NotPythonError
+from ros_lint.collectors.python.string_values import callee
 from ros_lint.collectors.python.syntax import parse
 from ros_lint.facts.sources import DeclaredParameter, NodeCode, ParameterType
 
@@ -44,39 +46,35 @@ def node_code(source: Text) -> NodeCode | None:
         tree = parse(source)
     except NotPythonError:
         return NodeCode(source.path, complete=False)
-    names: list[str] = []
-    declared: list[DeclaredParameter] = []
-    words: set[str] = set()
-    topics: list[str | None] = []
-    complete = True
-    is_dynamic = "dynamic_typing" in source.text or "ParameterTypeException" in source.text
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Constant) and isinstance(node.value, str) and _WORD.fullmatch(node.value):
-            words.add(node.value)
-        elif isinstance(node, ast.keyword) and node.arg in _OPEN:
-            complete = False
-        elif isinstance(node, ast.Call):
-            called = (
-                node.func.attr
-                if isinstance(node.func, ast.Attribute)
-                else node.func.id
-                if isinstance(node.func, ast.Name)
-                else ""
-            )
-            if called in ("declare_parameter", "declare_parameters"):
-                found = list(_declared(node, called, source, is_dynamic=is_dynamic))
-                declared += [parameter for parameter in found if parameter is not None]
-                complete = complete and None not in found
-            elif called in _CREATES:
-                topics.append(_topic(node))
-            elif called in ("__init__", "create_node") or called.endswith("Node"):
-                texts = [argument.value for argument in node.args[:2] if isinstance(argument, ast.Constant)]
-                texts += [
-                    word.value.value for word in node.keywords if word.arg == "node_name" and isinstance(word.value, ast.Constant)
-                ]
-                names += [text for text in texts if isinstance(text, str)][:1]
-    literal = None if None in topics else tuple(sorted({topic for topic in topics if topic is not None}))
-    return NodeCode(source.path, tuple(dict.fromkeys(names)), tuple(declared), tuple(sorted(words)), complete, literal)
+    found = nodes(tree)
+    calls = [(callee(node), node) for node in found if isinstance(node, ast.Call)]
+    texts = {node.value for node in found if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+    is_dynamic = any(word in source.text for word in ("dynamic_typing", "ParameterTypeException"))
+    declared = [
+        parameter
+        for called, call in calls
+        if called in ("declare_parameter", "declare_parameters")
+        for parameter in _declared(call, called, source, is_dynamic=is_dynamic)
+    ]
+    is_open = any(word in source.text for word in _OPEN) and any(
+        node.arg in _OPEN for node in found if isinstance(node, ast.keyword)
+    )
+    topics = [_topic(call) for called, call in calls if called in _CREATES]
+    names = [_name(call) for called, call in calls if called in ("__init__", "create_node") or called.endswith("Node")]
+    return NodeCode(
+        source.path,
+        tuple(dict.fromkeys([name for name in names if name is not None])),
+        tuple([parameter for parameter in declared if parameter is not None]),
+        tuple(sorted(text for text in texts if _WORD.fullmatch(text))),
+        not is_open and None not in declared,
+        None if None in topics else tuple(sorted({topic for topic in topics if topic is not None})),
+    )
+
+
+def _name(call: ast.Call) -> str | None:
+    """Return the name of the node that a call creates, None if it is computed."""
+    values = [*call.args[:2], *(keyword.value for keyword in call.keywords if keyword.arg == "node_name")]
+    return next((value.value for value in values if isinstance(value, ast.Constant) and isinstance(value.value, str)), None)
 
 
 def _topic(call: ast.Call) -> str | None:

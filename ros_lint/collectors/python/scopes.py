@@ -210,7 +210,7 @@ class _Scanner:
 
 
 def nodes(node: ast.AST) -> list[ast.AST]:
-    """Return a syntax node and all its descendants, in no particular order. The function is faster than ``ast.walk``."""
+    """Return a syntax node and all its descendants, breadth first. The function is faster than ``ast.walk``."""
     collected = [node]
     for inner in collected:
         for name in inner._fields:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import re
+from collections import Counter
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -15,7 +17,9 @@ from ros_lint.facts.visibility import Problem
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.values import Source
 
-_METHODS = ("add_action", "add_entity")
+_METHODS = frozenset({"add_action", "add_entity"})
+_CALLED = re.compile(r"\.\s*(\w*(?:[aA]dd|[aA]ction|[eE]ntit)\w*)\s*\(")
+"""Matches a call of a method whose name may be a misspelt method of a launch description."""
 _OWN_SCOPE = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 
 
@@ -26,6 +30,8 @@ def description_problems(tree: ast.Module, source: Source) -> Iterator[Problem]:
         if not _may_return(function):
             message = "generate_launch_description() returns nothing; end it with 'return LaunchDescription([...])'"
             yield Problem("no-description", message, span_of(function.body[-1], source))
+    if not any(map(_method_like, set(_CALLED.findall(source.text.text)))):
+        return  # because walking the functions takes longer than everything else
     for function in functions:
         for node, problem in _misspelt_methods(function, source):
             if is_from_launch(tree, node.func):
@@ -34,26 +40,37 @@ def description_problems(tree: ast.Module, source: Source) -> Iterator[Problem]:
 
 def _may_return(function: ast.FunctionDef) -> bool:
     """Return whether a function returns a value, raises an error itself, or is replaced by a decorator."""
-    ways = (ast.Return, ast.Yield, ast.YieldFrom, ast.Raise)
-    found = [node for node in _own_nodes(function) if isinstance(node, ways)]
-    return bool(function.decorator_list) or any(not isinstance(node, ast.Return) or node.value is not None for node in found)
+    if function.decorator_list or _returns(function.body[-1]):
+        return True
+    return any(map(_returns, _own_nodes(function)))
+
+
+def _returns(node: ast.AST) -> bool:
+    return node.value is not None if isinstance(node, ast.Return) else isinstance(node, (ast.Yield, ast.YieldFrom, ast.Raise))
 
 
 def _misspelt_methods(function: ast.FunctionDef, source: Source) -> Iterator[tuple[ast.Call, Problem]]:
     """Yield a problem for each misspelt method of a launch description, with the call that creates the launch description."""
     descriptions: dict[str, ast.Call] = {}
-    stored = [node.id for node in _own_nodes(function) if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load)]
-    for node in _own_nodes(function):
+    nodes = list(_own_nodes(function))
+    for node in nodes:
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call) and callee(node.value) == "LaunchDescription":
             descriptions |= {target.id: node.value for target in node.targets if isinstance(target, ast.Name)}
-    for node in _own_nodes(function):
+    if not descriptions:
+        return
+    stored = Counter([node.id for node in nodes if isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load)])
+    for node in nodes:
         if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and isinstance(node.func.value, ast.Name)):
             continue
         owner, name = node.func.value.id, node.func.attr
-        if owner in descriptions and stored.count(owner) == 1 and name not in _METHODS:
-            for method in similar_names(name, _METHODS, 1, 0.75):
-                message = f"LaunchDescription has no method '{name}'; did you mean '{method}'?"
-                yield descriptions[owner], Problem("no-method", message, span_of(node.func, source))
+        if owner in descriptions and stored[owner] == 1 and (method := _method_like(name)):
+            message = f"LaunchDescription has no method '{name}'; did you mean '{method}'?"
+            yield descriptions[owner], Problem("no-method", message, span_of(node.func, source))
+
+
+def _method_like(name: str) -> str:
+    """Return the method of a launch description that a misspelt name resembles, "" if there is none."""
+    return "" if name in _METHODS else next(iter(similar_names(name, sorted(_METHODS), 1, 0.75)), "")
 
 
 def _own_nodes(function: ast.FunctionDef) -> Iterator[ast.AST]:
