@@ -119,6 +119,8 @@ def test_the_page_in_a_browser(tmp_path: Path) -> None:
         tab.click("#matrix-button")
         assert tab.locator("td button").count() == count + 1
         assert tab.locator("td button.cycle").count() == 2
+        sizes = [button.bounding_box() for button in tab.locator("table button").all()]
+        assert min(min(size["width"], size["height"]) for size in sizes) >= 24, "targets of WCAG 2.2 AA"
         tab.fill("#search", "nothing_like_it")
         tab.press("#search", "Enter")
         assert tab.inner_text("#status") == "No package contains 'nothing_like_it'."
