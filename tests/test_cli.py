@@ -385,9 +385,14 @@ def test_a_watched_workspace_is_checked_after_each_change(clean: Path) -> None:
             assert process.stderr is not None
             assert process.stdout is not None
             assert "waiting for changes" in process.stderr.readline()
-            manifest = next(clean.glob("src/*/package.xml"))
+            manifest, settings = next(clean.glob("src/*/package.xml")), clean / "ros-lint.toml"
             manifest.write_text(manifest.read_text().replace("</package>", "  <depend>nav_msg</depend>\n</package>"))
             assert "write 'nav_msgs'" in process.stdout.readline()
+            assert "waiting for changes" in process.stderr.readline()
+            settings.write_text('ignore = ["unknown-dependency"]\n')
+            assert "waiting for changes" in process.stderr.readline()
+            settings.write_text("")
+            assert "write 'nav_msgs'" in process.stdout.readline(), "the ignored finding is reported again"
             assert "waiting for changes" in process.stderr.readline()
             process.send_signal(signal.SIGINT)
             process.wait()

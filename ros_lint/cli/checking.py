@@ -1,9 +1,11 @@
-"""Check a loaded workspace with the settings of a run: the steps that ``check``, ``--fix``, ``--since`` and ``lsp`` share."""
+"""Check a workspace with the settings of a run: the steps that several commands share."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ros_lint.cli.patterns import without_effect
+from ros_lint.cli.selected_packages import selected_folders
 from ros_lint.engine import registry
 from ros_lint.engine.check import ReportContext, check
 from ros_lint.engine.selection import Selection, SelectionError, check_selectors, select
@@ -15,6 +17,17 @@ if TYPE_CHECKING:
     from ros_lint.cli.settings import Settings
     from ros_lint.engine.report import Report
     from ros_lint.workspace.model import Workspace
+
+
+def check_session(session: Session) -> Report:
+    """Load the workspace of a session, and return the report about the packages that the settings select.
+
+    Raises SelectionError, PluginError, KnowledgeError, and UsageError for package names that do not exist.
+    """
+    workspaces = session.loader.load_all()
+    folders, warnings = selected_folders(session.settings, session.roots, lambda: workspaces)
+    patterns = without_effect(session.settings, session.excluder, session.base, session.roots, workspaces[0])
+    return check_workspaces(session, workspaces, folders, (*warnings, *patterns))
 
 
 def check_workspaces(

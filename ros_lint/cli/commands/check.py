@@ -19,15 +19,18 @@ from ros_lint.engine.report import Report
 from ros_lint.errors import UserError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from ros_lint.cli.session import Request
     from ros_lint.cli.settings import Settings
     from ros_lint.engine.baseline import Baseline
 
 
-def run(options: Mapping[str, Any]) -> int:
-    """Check the requested workspace and print the findings. Return the exit code: 0, 1 or 2, see :func:`exit_code`."""
+def run(options: Mapping[str, Any], report_of: Callable[[Request, Progress], Report] | None = None) -> int:
+    """Check the requested workspace and print the findings. Return the exit code: 0, 1 or 2, see :func:`exit_code`.
+
+    ``report_of`` checks the workspace; by default a report of the cache is used if its inputs are unchanged.
+    """
     if options.get("version"):
         print(f"ros-lint {__version__}")
         return 0
@@ -56,7 +59,7 @@ def run(options: Mapping[str, Any]) -> int:
 
                 report, code = fix.run(open_session(request, progress.update, again=True))
             else:
-                report = _report(request, progress)
+                report = (report_of or _report)(request, progress)
             if request.settings["since"]:
                 from ros_lint.cli.since import only_new  # noqa: PLC0415
 
@@ -151,14 +154,9 @@ def _report(request: Request, progress: Progress) -> Report:
     if cached := cache.fetch(recorded):
         return cached
     session = open_session(request, progress.update, *(recorded if cache else disks))
-    from ros_lint.cli.checking import check_workspaces  # noqa: PLC0415  (not needed for a cached report)
-    from ros_lint.cli.patterns import without_effect  # noqa: PLC0415
-    from ros_lint.cli.selected_packages import selected_folders  # noqa: PLC0415
+    from ros_lint.cli.checking import check_session  # noqa: PLC0415  (not needed for a cached report)
 
-    workspaces = session.loader.load_all()
-    folders, warnings = selected_folders(request.settings, session.roots, lambda: workspaces)
-    patterns = without_effect(session.settings, session.excluder, session.base, session.roots, workspaces[0])
-    report = check_workspaces(session, workspaces, folders, (*warnings, *patterns))
+    report = check_session(session)
     cache.store(recorded, report)
     return report
 
