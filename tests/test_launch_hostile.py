@@ -203,6 +203,19 @@ def test_doubling_includes_are_limited() -> None:
     assert not result.complete
 
 
+def test_paths_of_many_parts_behind_long_words_are_joined_in_time() -> None:
+    parts = f"['{'x' * 8_000} y', *[LaunchConfiguration('a')] * 300]"
+    body = (
+        "return LaunchDescription([DeclareLaunchArgument('a', default_value='b'), "
+        f"Node(package='p', executable=PathJoinSubstitution({parts}))])"
+    )
+    file = _read(_program(body))
+    start = time.process_time()
+    (started,) = expand(file, {}, lambda path: None).started
+    assert time.process_time() - start < SECONDS
+    assert started.target == ("x" * 8_000 + " y" + "/b" * 300,)
+
+
 TRAP = """
 import os, pathlib, subprocess, sys
 def spring():

@@ -73,7 +73,8 @@ _RENAMES = ("__node:=", "__name:=", "__ns:=")
 # The same path characters as in _PREFIX.
 _IN_OWN_FOLDER = re.compile(rf"{OWN_FOLDER}((?:/[^/\s'\":;,\ue012-\ue015]*)+)")
 _JOINTS = re.compile("/?\ue01c|\ue01d")
-_LAST_PATH = re.compile("[^\\s'\":;,]*\\Z")
+_PATH_END = re.compile("[\\s'\":;,]")
+"""Matches a character that cannot be in a path."""
 _TWICE_ROOTED = re.compile(rf".*/(?=/(?:{_ROOT}|\ue002))", re.DOTALL)
 
 
@@ -178,15 +179,26 @@ def without_joints(text: str) -> str:
 
 def _rejoined(text: str) -> str:
     """Return a text in which the parts of each joined path are joined, as os.path.join() does."""
-    result, *parts = _JOINTS.split(text)
+    first, *parts = _JOINTS.split(text)
+    before, path = _before_path(first)
+    finished = [before]
     for part in parts:
-        path = _LAST_PATH.search(result)
-        start = path.start() if path is not None else 0
+        before, end = _before_path(part)
         if part.startswith("/"):
-            result = result[:start] + part
-        else:
-            result = f"{result}{'' if start == len(result) or result.endswith('/') else '/'}{part}"
-    return result
+            path = ""
+        elif path and not path.endswith("/"):
+            path += "/"
+        if before:
+            finished.append(path + before)
+            path = ""
+        path += end
+    return "".join([*finished, path])
+
+
+def _before_path(text: str) -> tuple[str, str]:
+    """Return a text in two parts: the path at its end, which may be empty, and what is before the path."""
+    end = max([match.end() for match in _PATH_END.finditer(text)], default=0)
+    return text[:end], text[end:]
 
 
 def command(text: str) -> str:
