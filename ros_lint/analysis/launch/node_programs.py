@@ -9,6 +9,7 @@ from ros_lint.analysis.build.commands import evaluated_name
 from ros_lint.analysis.build.targets import stem
 from ros_lint.analysis.memo import cached_by_package
 from ros_lint.collectors.suffixes import HEADERS
+from ros_lint.facts.launch import LaunchAction
 from ros_lint.facts.sources import DeclaredParameter, NodeCode
 from ros_lint.workspace.model import Package, Workspace
 
@@ -36,6 +37,18 @@ class NodeProgram(NamedTuple):
             if result.setdefault(parameter.name, parameter).type != parameter.type:
                 refused.add(parameter.name)
         return {name: parameter for name, parameter in result.items() if name not in refused}
+
+
+def started_program(action: LaunchAction, workspace: Workspace) -> NodeProgram | None:
+    """Return the program or component that an action starts.
+
+    The result is None if it is unknown, is not in the workspace, or does not create exactly one node with a literal name.
+    """
+    package, target = action.package, action.target
+    if package is None or target is None or len(package.texts) != 1 or len(target.texts) != 1:
+        return None
+    program = node_program(workspace, package.texts[0], target.texts[0])
+    return program if program is not None and program.name else None
 
 
 def node_program(workspace: Workspace, package: str, target: str) -> NodeProgram | None:
@@ -99,7 +112,7 @@ def _component_programs(package: Package) -> Iterator[tuple[str, str]]:
 @cached_by_package
 def is_closed(package: Package, workspace: Workspace) -> bool:
     """Return whether all code that declares parameters in the nodes of a package is known."""
-    packages = with_used(package, workspace)
+    packages = _with_used(package, workspace)
     return all(code.complete for owner in packages for code in owner.node_code) and all(
         _is_passive(use.package) or use.package in workspace.by_name
         for owner in packages
@@ -111,20 +124,33 @@ def is_closed(package: Package, workspace: Workspace) -> bool:
 @cached_by_package
 def words_of(package: Package, workspace: Workspace) -> frozenset[str]:
     """Return the string literals in the code of a package and of the packages of the workspace that it uses."""
-    return frozenset(word for owner in with_used(package, workspace) for code in owner.node_code for word in code.words)
+    return frozenset(word for owner in _with_used(package, workspace) for code in owner.node_code for word in code.words)
 
 
 @cached_by_package
-def with_used(package: Package, workspace: Workspace) -> tuple[Package, ...]:
+def topics_of(package: Package, workspace: Workspace) -> frozenset[str] | None:
+    """Return the topics, services and actions that the code of a package creates, with those of packages that it uses.
+
+    The result is None if they are not all known.
+    """
+    if not is_closed(package, workspace):
+        return None
+    codes = [code for owner in _with_used(package, workspace) for code in owner.node_code]
+    known = [code.topics for code in codes if code.topics is not None]
+    return frozenset(topic for topics in known for topic in topics) if len(known) == len(codes) else None
+
+
+@cached_by_package
+def _with_used(package: Package, workspace: Workspace) -> tuple[Package, ...]:
     """Return a package and the packages of the workspace that its code uses, directly or not."""
-    seen = {package.name: package}
+    seen: dict[str, tuple[Package, ...]] = {package.name: (package,)}
     waiting = [package]
     while waiting:
-        for use in waiting.pop().uses:
-            for other in workspace.by_name.get(use.package, ()) if use.package not in seen else ():
-                seen[use.package] = other
-                waiting.append(other)
-    return tuple(seen.values())
+        for name in {use.package: None for use in waiting.pop().uses}:
+            if name not in seen:
+                seen[name] = workspace.by_name.get(name, ())
+                waiting += seen[name]
+    return tuple([other for packages in seen.values() for other in packages])
 
 
 _PASSIVE = frozenset({
@@ -140,16 +166,3 @@ _PASSIVE_ENDINGS = ("_msgs", "_srvs", "_interfaces", "_actions", "_msg", "_srv",
 
 def _is_passive(name: str) -> bool:
     return name in _PASSIVE or name.endswith(_PASSIVE_ENDINGS) or name.startswith(("python3-", "lib"))
-
-
-@cached_by_package
-def topics_of(package: Package, workspace: Workspace) -> frozenset[str] | None:
-    """Return the topics, services and actions that the code of a package creates, with those of packages that it uses.
-
-    The result is None if they are not all known.
-    """
-    codes = [code for owner in with_used(package, workspace) for code in owner.node_code]
-    if not is_closed(package, workspace):
-        return None
-    known = [code.topics for code in codes if code.topics is not None]
-    return frozenset(topic for topics in known for topic in topics) if len(known) == len(codes) else None

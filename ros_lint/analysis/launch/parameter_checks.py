@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.node_programs import NodeProgram, is_closed, node_program, words_of
+from ros_lint.analysis.launch.node_programs import NodeProgram, is_closed, started_program, words_of
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.base.suggestions import similar_names
-from ros_lint.collectors.launch.final_parameters import matches
+from ros_lint.collectors.launch.final_parameters import full_name, matches
 from ros_lint.collectors.symbolic_text import is_node_renaming, is_plain
 from ros_lint.facts.launch import walk_actions
 
@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from ros_lint.analysis.launch.parameter_files import NodeParameterFile
     from ros_lint.facts.sources import DeclaredParameter, FileParameter
     from ros_lint.workspace.model import Package, Workspace
-
-_ANY = frozenset({"/**", "**"})
 
 
 class WrongType(NamedTuple):
@@ -52,8 +50,7 @@ def wrong_types(uses: Iterable[NodeParameterFile], workspace: Workspace) -> Iter
     ``uses`` are the places where launch files pass the file. Parameters that a launch file changes or sets again are left out.
     """
     for passed in uses:
-        program = _program(passed, workspace)
-        names = full_names(passed, program) if program is not None else ()
+        program, names = _receiver(passed, workspace)
         if program is None or not names or passed.value.changes:
             continue
         declared = program.declared
@@ -65,7 +62,7 @@ def wrong_types(uses: Iterable[NodeParameterFile], workspace: Workspace) -> Iter
                 and "" not in (found.type, parameter.type)
                 and found.type != parameter.type
                 and parameter.name not in again
-                and all(parameter.node in _ANY or matches(parameter.node, name) for name in names)
+                and all(matches(parameter.node, name) for name in names)
             ):
                 yield WrongType(passed, parameter, found, names[0])
 
@@ -76,27 +73,27 @@ def undeclared(uses: Sequence[NodeParameterFile], workspace: Workspace) -> Itera
     ``uses`` are all places where launch files of the workspace pass the file. Nothing is yielded about a node whose code is
     not in the workspace, or may declare parameters whose names are computed.
     """
-    receivers: list[tuple[NodeParameterFile, NodeProgram, tuple[str, ...]]] = []
+    receivers: list[tuple[NodeParameterFile, tuple[str, ...], frozenset[str], list[str]]] = []
+    given = {parameter.name for parameter in uses[0].file.parameters}
     for passed in uses:
-        program = _program(passed, workspace)
-        names = full_names(passed, program) if program is not None else ()
+        program, names = _receiver(passed, workspace)
         if program is None or not names or not is_closed(program.package, workspace):
             return
-        receivers.append((passed, program, names))
+        free = [name for name in program.declared if name not in given]
+        receivers.append((passed, names, words_of(program.package, workspace), free))
     for parameter in uses[0].file.parameters:
-        own = [row for row in receivers if any(matches(parameter.node, name) for name in row[2])]
-        if not own or is_of_every_node(parameter.name):
+        own = [row for row in receivers if any(matches(parameter.node, name) for name in row[1])]
+        if not own or _is_of_every_node(parameter.name):
             continue
-        words = [word for _, program, _ in own for word in words_of(program.package, workspace)]
-        if parameter.name in words or parameter.name.rpartition(".")[2] in words:
+        last = parameter.name.rpartition(".")[2]
+        if any(parameter.name in words or last in words for _, _, words, _ in own):
             continue
-        passed, program, names = own[0]
-        given = {other.name for other in passed.file.parameters}
-        near = similar_names(parameter.name, [name for name in program.declared if name not in given], 1, 0.8)
+        passed, names, _, free = own[0]
+        near = similar_names(parameter.name, free, 1, 0.8)
         yield Undeclared(passed, parameter, names[0], near[0] if near else "")
 
 
-def is_of_every_node(name: str) -> bool:
+def _is_of_every_node(name: str) -> bool:
     """Return whether rclcpp and rclpy themselves declare a parameter, or a library that any node may use."""
     return name in _OF_EVERY_NODE or name.startswith("qos_overrides.")
 
@@ -104,23 +101,17 @@ def is_of_every_node(name: str) -> bool:
 _OF_EVERY_NODE = frozenset({"use_sim_time", "start_type_description_service", "diagnostic_updater"})
 
 
-def full_names(passed: NodeParameterFile, program: NodeProgram | None) -> tuple[str, ...]:
-    """Return the possible full names of a node that receives a parameter file, () if they are unknown."""
+def _receiver(passed: NodeParameterFile, workspace: Workspace) -> tuple[NodeProgram | None, tuple[str, ...]]:
+    """Return the program that receives a parameter file, and the possible full names of its node; () if they are unknown.
+
+    The program is None if it is unknown, is not in the workspace or has several nodes.
+    """
+    program = started_program(passed.action, workspace)
     words = (text for _, value in passed.action.arguments for text in value.texts)
-    names = passed.names or ((program.name,) if program is not None and program.name else ())
-    if not names or "" in names or any(map(is_node_renaming, words)):
-        return ()
-    full = [f"/{space.strip('/')}/{name}".replace("//", "/") for space in passed.namespaces for name in names]
-    return tuple(full) if all(map(is_plain, full)) else ()
-
-
-def _program(passed: NodeParameterFile, workspace: Workspace) -> NodeProgram | None:
-    """Return the program that receives a parameter file; None if it is unknown, is not in the workspace or has several nodes."""
-    package, target = passed.action.package, passed.action.target
-    if package is None or target is None or len(package.texts) != 1 or len(target.texts) != 1:
-        return None
-    program = node_program(workspace, package.texts[0], target.texts[0])
-    return program if program is not None and program.name else None
+    if program is None or any(map(is_node_renaming, words)):
+        return program, ()
+    full = [full_name(space, name) for space in passed.namespaces for name in passed.names or (program.name,)]
+    return program, tuple(full) if "" not in passed.names and all(map(is_plain, full)) else ()
 
 
 def _set_again(passed: NodeParameterFile) -> frozenset[str]:
@@ -134,7 +125,7 @@ def unmatched_nodes(uses: Sequence[NodeParameterFile], workspace: Workspace) -> 
     ``uses`` are all places where launch files of the workspace pass the file. Nothing is yielded if a program that receives
     the file is not in the workspace, because it may start nodes of other names.
     """
-    if any(passed.value.changes or _program(passed, workspace) is None for passed in uses):
+    if any(passed.value.changes or started_program(passed.action, workspace) is None for passed in uses):
         return
     known = _names_of_nodes(workspace)
     for name, _ in uses[0].file.nodes:

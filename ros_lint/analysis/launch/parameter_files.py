@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver, installed_below_share, substitute
 from ros_lint.analysis.memo import cached_by_workspace
-from ros_lint.collectors.symbolic_text import installed_place, share
+from ros_lint.collectors.symbolic_text import installed_place
 from ros_lint.facts.launch import walk_actions
 
 if TYPE_CHECKING:
@@ -50,7 +50,11 @@ class ParameterContents:
         place = installed_place(path)
         if place is None:
             return self._by_source.get(normpath(path))
-        return self._by_place.get((place.package, place.share or ""))
+        return self.installed(place.package, place.share or "")
+
+    def installed(self, package: str, path: str) -> ParameterFile | None:
+        """Return the parameter file at a path below the share folder of a package; None if it is not known."""
+        return self._by_place.get((package, path))
 
 
 @cached_by_workspace
@@ -80,7 +84,7 @@ class ParameterFiles:
                     defaults = assigned_configurations(file)
                 texts = substitute(value, defaults)
                 place = self._links.installed_at(texts[0], file) if len(texts) == 1 else None
-                parameters = self._contents(f"{share(place[0])}/{place[1]}") if place is not None else None
+                parameters = self._contents.installed(*place) if place is not None else None
                 if parameters is not None:
                     names, namespaces = substitute(action.name, defaults), substitute(action.namespace, defaults)
                     yield NodeParameterFile(action, value, parameters, names, namespaces or ("",))

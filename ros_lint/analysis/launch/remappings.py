@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.node_programs import node_program, topics_of
+from ros_lint.analysis.launch.node_programs import started_program, topics_of
 from ros_lint.base.suggestions import similar_names
 from ros_lint.facts.launch import walk_actions
 
@@ -40,14 +40,9 @@ def unused_remappings(file: LaunchFile, workspace: Workspace) -> Iterator[Unused
     Nothing is yielded for a node whose code is not completely known. Only the last parts of names are compared.
     """
     for action in walk_actions(file.actions):
-        package, target = action.package, action.target
-        if not action.remappings or action.children or package is None or target is None:
-            continue
-        if len(package.texts) != 1 or len(target.texts) != 1:
-            continue
-        program = node_program(workspace, package.texts[0], target.texts[0])
-        topics = topics_of(program.package, workspace) if program is not None and program.name else None
-        if topics is None:
+        program = started_program(action, workspace) if action.remappings and not action.children else None
+        topics = topics_of(program.package, workspace) if program is not None else None
+        if topics is None or action.target is None:
             continue
         known = {topic.rpartition("/")[2] for topic in topics} | _OF_EVERY_NODE
         for before, _ in action.remappings:
@@ -56,4 +51,4 @@ def unused_remappings(file: LaunchFile, workspace: Workspace) -> Iterator[Unused
             if len(before.texts) != 1 or not _NAME.fullmatch(name) or last in known or name.startswith("__"):
                 continue
             near = similar_names(last, sorted({topic.rpartition("/")[2] for topic in topics}), 1, 0.75)
-            yield UnusedRemapping(before, target.texts[0], near[0] if near else "")
+            yield UnusedRemapping(before, action.target.texts[0], near[0] if near else "")

@@ -114,7 +114,12 @@ class NodeNames(NamedTuple):
     def full(self) -> Texts:
         """The possible full names; those with UNKNOWN are not known."""
         pairs = product(self.namespaces or ("",), [name or UNKNOWN for name in self.names] or (UNKNOWN,))
-        return tuple(dict.fromkeys([f"/{space.strip('/')}/{name}".replace("//", "/") for space, name in pairs]))[:_MOST_NAMES]
+        return tuple(dict.fromkeys([full_name(space, name) for space, name in pairs]))[:_MOST_NAMES]
+
+
+def full_name(namespace: str, name: str) -> str:
+    """Return the name of a node with its namespace: ``/arm/driver``, or ``/driver`` for the namespace ``""`` or ``/``."""
+    return f"/{namespace.strip('/')}/{name}".replace("//", "/")
 
 
 def final_parameters(
