@@ -103,6 +103,11 @@ def test_the_page_in_a_browser(tmp_path: Path) -> None:
 
         assert shown() == sorted([*DIAMOND, *KNOT])
         assert "There is a dependency cycle" in tab.inner_text("#status")
+        colour = "getComputedStyle(document.querySelector('path.edge.cycle')).stroke"
+        colour_of_cycles = tab.evaluate(colour)
+        tab.click(".node[aria-label^='a, ']")
+        assert tab.locator("path.edge.near").count() == 3
+        assert tab.evaluate(colour) == colour_of_cycles, "a selected package keeps the colour of its cycles"
         tab.fill("#search", "left")
         assert shown() == ["left", "low", "top"]
         assert tab.inner_text("#details h2") == "left"

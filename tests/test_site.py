@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from html.parser import HTMLParser
@@ -37,6 +38,17 @@ def test_the_site_builds_without_warnings(tmp_path: Path) -> None:
     process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert (process.returncode, process.stderr) == (0, "")
     assert all((tmp_path / "site" / "rules" / rule.name / "index.html").exists() for rule in registry.load())
+
+
+def test_every_picture_is_small_and_has_an_alternative_text() -> None:
+    used = {
+        (path.parent / target).resolve(): alternative
+        for path in (ROOT / "docs").rglob("*.md")
+        for alternative, target in re.findall(r"!\[(.*?)\]\((.*?)\)", path.read_text("utf-8"))
+    }
+    assert set(used) == set((ROOT / "docs" / "images").iterdir()), "packaging/screenshots.py writes the pictures"
+    assert [path.name for path in used if path.stat().st_size > 150_000] == []
+    assert all(len(alternative) > 40 for alternative in used.values())
 
 
 class _Tags(HTMLParser):
