@@ -12,12 +12,13 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from ros_lint.base.tree import Entry, MemoryTree, Stamp
+from ros_lint.base.tree import Entry, MemoryTree, Stamp, Tree
 from ros_lint.engine import registry
 from ros_lint.engine.run import find_issues
 from ros_lint.knowledge import Knowledge
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
+from ros_lint.workspace.state import DistroData
 from ros_lint.workspace.target import TargetDistro
 
 Files = dict[str, bytes]
@@ -63,17 +64,25 @@ def files_below(folder: str) -> Files:
 
 
 class Comparison:
-    """A workspace that is edited, checked incrementally and compared with a check from scratch."""
+    """A workspace that is edited, checked incrementally and compared with a check from scratch.
 
-    def __init__(self, files: Files, distro: str = "jazzy", *, explicit: bool = False) -> None:
+    It is checked for each of ``distros``, by default for jazzy.
+    """
+
+    def __init__(self, files: Files, *distros: str, explicit: bool = False) -> None:
         self.files = dict(files)
         self.unsaved: Files = {}
-        self._target = TargetDistro(distro, "test", explicit=explicit)
+        names = distros or ("jazzy",)
+        self._targets = [TargetDistro(name, "test", explicit, tuple(other for other in names if other != name)) for name in names]
+        self._knowledge = [Knowledge(name) for name in names]
         self._rules = registry.load(())
-        self._knowledge = Knowledge(distro)
         self._tree = EditedTree(files)
-        self._loader = Loader(self._tree, ("",), self._target, knowledge=Knowledge(distro), again=True)
+        self._loader = self._loader_of(self._tree, [Knowledge(name) for name in names], again=True)
         self.incremental()
+
+    def _loader_of(self, tree: Tree, knowledge: list[Knowledge], *, again: bool = False) -> Loader:
+        others = [DistroData(*pair) for pair in zip(self._targets[1:], knowledge[1:], strict=True)]
+        return Loader(tree, ("",), self._targets[0], knowledge=knowledge[0], others=others, again=again)
 
     def apply(self, changes: Mapping[str, bytes | None], *, saved: bool = True) -> None:
         """Change files: on the disk if ``saved`` is True, else in the editor only. A file with the contents None is deleted."""
@@ -94,7 +103,7 @@ class Comparison:
         return self._result(self._loader)
 
     def from_scratch(self) -> str:
-        return self._result(Loader(MemoryTree(self.files), ("",), self._target, knowledge=self._knowledge))
+        return self._result(self._loader_of(MemoryTree(self.files), self._knowledge))
 
     def _result(self, loader: Loader) -> str:
         workspaces = loader.load_all(self.unsaved)

@@ -9,8 +9,14 @@ from pathlib import Path
 import pytest
 
 from ros_lint.base.text import to_bytes
+from ros_lint.base.tree import MemoryTree
+from ros_lint.knowledge import Knowledge
 from ros_lint.testing import read_cases
-from tests.random_edits import Comparison, Files, files_below, first_difference
+from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.state import DistroData
+from ros_lint.workspace.target import TargetDistro
+from tests.packages import manifest_text
+from tests.random_edits import Comparison, EditedTree, Files, files_below, first_difference
 
 FIXTURES = Path(__file__).parent.parent / "fixtures"
 _FOLDER = os.environ.get("ROS_LINT_EDITED", "")
@@ -28,7 +34,22 @@ def _several_cases(seed: int) -> Files:
 
 @pytest.mark.parametrize("seed", range(8))
 def test_edits_of_cases_are_checked_incrementally(seed: int) -> None:
-    assert not first_difference(Comparison(_several_cases(seed), explicit=seed % 2 == 0), seed, 10)
+    distros = ("jazzy", "humble") if seed % 4 > 1 else ("jazzy",)
+    assert not first_difference(Comparison(_several_cases(seed), *distros, explicit=seed % 2 == 0), seed, 10)
+
+
+def test_a_load_without_sources_between_two_loads_loses_no_change() -> None:
+    tree = EditedTree({"a/package.xml": manifest_text("a").encode()})
+    targets = [TargetDistro(name, "test") for name in ("jazzy", "humble")]
+    loader = Loader(tree, ("",), targets[0], others=[DistroData(targets[1], Knowledge("humble"))], again=True)
+    loader.load(sources=False)
+    before = loader.load_all()
+    tree.now = MemoryTree({"a/package.xml": manifest_text("a", ["<depend>rclcpp</depend>"]).encode()})
+    loader.forget(["a/package.xml"])
+    assert [use.name for use in loader.load(sources=False).packages[0].declared] == ["rclcpp"]
+    assert loader.load() is before[0]
+    for workspace in loader.load_all():
+        assert [use.name for use in workspace.packages[0].declared] == ["rclcpp"]
 
 
 @pytest.mark.skipif(not _FOLDER, reason="ROS_LINT_EDITED is not set")

@@ -106,6 +106,7 @@ class Loader:
         self._recorder = Recorder() if again else None
         self._watched = WatchedTree(tree, self._recorder) if self._recorder else None
         self._states: list[State] = []
+        """What is kept of the last load with sources, for each distribution."""
         self._facts: dict[str, Collected] = {}
         """The facts of the files of the last load, by path."""
         self._overlaid: dict[str, tuple[bytes, Collected]] = {}
@@ -131,17 +132,20 @@ class Loader:
         """Yield the workspace for each distribution. ``changed`` has new contents of files, by path."""
         tree: Tree = OverlayTree(self.tree, changed) if changed else self.tree
         recorder = self._recorder if sources else None
+        touched: set[str] = set()
         if recorder and self._watched:
-            self._touched |= self._watched.lay(self.tree, changed)
+            touched = self._touched | self._watched.lay(self.tree, changed)
+            self._touched = set()
             tree = self._watched
-        if not (recorder and self._states):
-            self._states = [State(tree, data, recorder) for data in self._distros]
-        touched, self._touched = self._touched, set()
+        states = (self._states if recorder else None) or [State(tree, data, recorder) for data in self._distros]
+        if sources:
+            self._states = states
+        for state in states:
+            state.touched |= touched
         self._progress("looking for packages", 0, 0)
         found: _Found | None = None
         read: Read | None = None
-        for state in self._states:
-            state.touched |= touched
+        for state in states:
             if found is None or found.depends_on_distro:
                 found = state.questions.ask("find", partial(self._find, tree, state.data.target))
                 if sources:
@@ -152,9 +156,8 @@ class Loader:
                 yield self._join(tree, found, read.packages, state, sources=True)
                 read = None if recorder else read
             else:
-                yield self._join(
-                    tree, found, [_manifest_only(package, state.data.target) for package in found.packages], state, sources=False
-                )
+                of_manifests = [_manifest_only(package, state.data.target) for package in found.packages]
+                yield self._join(tree, found, of_manifests, state, sources=False)
 
     def _find(self, tree: Tree, target: TargetDistro) -> _Found:
         """Return the packages that colcon finds for a distribution."""

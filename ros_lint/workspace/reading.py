@@ -5,7 +5,7 @@ Facts are the data that collectors extract from one file.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple, TypeVar
 
@@ -202,6 +202,6 @@ def kinds(declared: Sequence[Declared]) -> dict[str, tuple[str, ...]]:
     return {kind: tuple(of_kind) for kind, of_kind in names.items()}
 
 
-def unchecked(opaque: Iterator[Opaque] | Sequence[Opaque]) -> Iterator[UnreadFile]:
+def unchecked(opaque: Iterable[Opaque]) -> Iterator[UnreadFile]:
     """Yield the places that ros-lint does not check because of one of its limits or a bug in it."""
     yield from (UnreadFile(place.span.path, place.reason, place.span) for place in opaque if place.unchecked)
