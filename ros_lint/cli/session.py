@@ -264,10 +264,10 @@ def no_packages(request: Request | Session) -> str:
     folders = discover(DiskTree(request.base), request.roots, {}).skipped
     skipped = [f"{folder.path or '.'} ({folder.reason})" for folder in folders]
     if not skipped:
-        return f"ros-lint: no package found below {places}; is there a package.xml?"
+        return f"no package found below {places}; is there a package.xml?"
     remaining = f" and {len(skipped) - _MOST_SKIPPED} more" if len(skipped) > _MOST_SKIPPED else ""
     listed = ", ".join(skipped[:_MOST_SKIPPED])
-    nothing = f"ros-lint: no package found below {places}; skipped: {listed}{remaining}"
+    nothing = f"no package found below {places}; skipped: {listed}{remaining}"
     return f"{nothing}; to check a skipped folder, pass its path"
 
 

@@ -76,7 +76,7 @@ def run(options: Mapping[str, Any], report_of: Callable[[Request, Progress], Rep
     if request.settings["diff"]:  # standard output is the patch and nothing else
         return max(code, exit_code(report, request.settings["fail-on"]))
     if not report.packages:
-        show(no_packages(request).removeprefix("ros-lint: "))
+        show(no_packages(request))
     written = outputs.print_report(report, request, unsaved)
     return max(code, written, exit_code(report, request.settings["fail-on"]))
 
@@ -116,7 +116,7 @@ def _write_baseline(report: Report, request: Request) -> int:
     path = request.settings["baseline"]
     if code := exit_code(report, "never"):
         why = "a rule failed, so its findings are unknown" if report.packages else no_packages(request)
-        show(f"{path}: not written: {why.removeprefix('ros-lint: ')}")
+        show(f"{path}: not written: {why}")
         return code
     baseline.write(path, report, _folders(request, path))
     count = len(report.issues)

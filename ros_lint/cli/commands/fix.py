@@ -51,7 +51,7 @@ def run(session: Session) -> tuple[Report, int]:
     except edits.EditError as error:
         show(str(error))
         return report({path: result.changed[path] for path in error.written}), 2
-    show(f"{_summary(len(result.applied), len(result.changed))}")
+    show(_summary(len(result.applied), len(result.changed)))
     if settings["show-fixes"]:
         for line in _listed(result.applied):
             print(f"  {harmless(line)}", file=sys.stderr)

@@ -54,7 +54,7 @@ def run(command: str, options: Mapping[str, Any]) -> int:
 
     def answer(session: Session, workspace: Workspace) -> CommandOutput:
         out, err, code = _COMMANDS[command](workspace, options)
-        return (out, err, code) if workspace.packages else (out, f"{err}{no_packages(session)}\n", 2)
+        return (out, err, code) if workspace.packages else (out, f"{err}ros-lint: {no_packages(session)}\n", 2)
 
     if command in _WITH_SOURCES and not options.get("paths"):
         options = {**options, "paths": [current_workspace()]}

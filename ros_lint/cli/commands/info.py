@@ -40,7 +40,7 @@ def _rules(options: Mapping[str, Any]) -> int:
         return 2
     matches = rules if name is None else [rule for rule in rules if name.lower() in (rule.name, rule.code.lower())]
     if not matches:
-        show(f"{registry.unknown_rule_message(rules, str(name))}")
+        show(registry.unknown_rule_message(rules, str(name)))
         return 2
     if options.get("format") == "json":
         print(rule_pages.as_json(matches), end="")
