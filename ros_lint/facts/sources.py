@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 from ros_lint.base.text import Span
 from ros_lint.facts.interfaces import InterfaceFile
@@ -128,6 +128,12 @@ class ImportedType(NamedTuple):
 
 ParameterType = Literal["bool", "integer", "double", "string", "bool_array", "integer_array", "double_array", "string_array", ""]
 """Type of a parameter in the words of rclcpp; "" if it is unknown, as for a list without elements."""
+
+
+PARAMETERS_KEY: Final = "ros__parameters"
+"""The key in a parameter file above the parameters of a node, and below the name of the node."""
+ANY_NODE: Final = "/**"
+"""The name in a parameter file that stands for any node."""
 
 
 class FileParameter(NamedTuple):

@@ -15,6 +15,7 @@ from itertools import pairwise, product
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain, is_settled, readable
+from ros_lint.facts.sources import ANY_NODE, PARAMETERS_KEY
 
 if TYPE_CHECKING:
     from ros_lint.base.text import Span
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 
 Texts = tuple[str, ...]
 """The possible values of a text."""
-_ANY: Final = "/**"
-_MARK: Final = "ros__parameters"
 _MOST_NAMES: Final = 8
 """Maximum number of possible full names of a node for which the parameters are computed."""
 
@@ -94,10 +93,8 @@ Contents = Callable[[str], "ParameterFile | None"]
 """A function that returns the parameter file at a path, None if it is not in sight."""
 
 
-class _Source(NamedTuple):
-    """What one entry of ``parameters`` gives; ``rows`` is None if that is not known."""
-
-    rows: tuple[_Row, ...] | None
+_Rows = tuple[_Row, ...] | None
+"""What one entry of ``parameters`` gives; None if that is not known."""
 
 
 class NodeNames(NamedTuple):
@@ -139,29 +136,29 @@ def final_parameters(
     """
     unknown: dict[str, None] = {}
     full = node.full
-    own = full[0] if len(full) == 1 and is_plain(full[0]) else _ANY
-    shared = [_source(parameter, _ANY, contents, substitute, unknown) for parameter in process]
-    sources = [_source(parameter, own, contents, substitute, unknown) for parameter in given]
+    own = full[0] if len(full) == 1 and is_plain(full[0]) else ANY_NODE
+    shared = [_rows(parameter, ANY_NODE, contents, substitute, unknown) for parameter in process]
+    sources = [_rows(parameter, own, contents, substitute, unknown) for parameter in given]
     results: list[dict[str, FinalParameter]] = []
     for name in full:
         meant = _Meant(name, _only_name(node.program, [*shared, *sources]), unknown)
         result: dict[str, FinalParameter] = {}
         if component:
             _apply_table(shared, meant, result)
-            for source in sources:
-                _apply_to_component(source, meant, result)
+            for rows in sources:
+                _apply_to_component(rows, meant, result)
         else:
             _apply_table([*shared, *sources], meant, result)
         results.append(result)
     return FinalParameters(tuple(_joined(results)), tuple(unknown))
 
 
-def _only_name(program: Texts, sources: Iterable[_Source]) -> str:
+def _only_name(program: Texts, sources: Iterable[_Rows]) -> str:
     """Return the last part of the node name that a program of unknown node name probably has, "" if there are several.
 
     It is the name of the program, if a row has it, or the only name of all rows.
     """
-    names = {row.node.rpartition("/")[2] for source in sources for row in source.rows or ()} - {"*", "**"}
+    names = {row.node.rpartition("/")[2] for rows in sources for row in rows or ()} - {"*", "**"}
     return next((name for name in program if name in names), next(iter(names)) if len(names) == 1 else "")
 
 
@@ -176,8 +173,8 @@ class _Meant:
 
     def by_rcl(self, row: str) -> bool | None:
         """Return whether rclcpp takes a row for the node, None if that is unknown."""
-        if row == _ANY or self._is_known:
-            return row == _ANY or matches(row, self._name)
+        if row == ANY_NODE or self._is_known:
+            return row == ANY_NODE or matches(row, self._name)
         return self._perhaps(row)
 
     def by_launch(self, row: str) -> bool | None:
@@ -205,15 +202,15 @@ def matches(row: str, full_name: str) -> bool:
     return re.fullmatch(pattern, full_name, re.ASCII) is not None
 
 
-def _apply_table(sources: Sequence[_Source], meant: _Meant, result: dict[str, FinalParameter]) -> None:
+def _apply_table(sources: Sequence[_Rows], meant: _Meant, result: dict[str, FinalParameter]) -> None:
     """Apply files and parameters as rcl and rclcpp do."""
     table: dict[str, dict[str, FinalParameter]] = {}
     first: dict[str, int] = {}
     last_unknown = -1
-    for number, source in enumerate(sources):
-        if source.rows is None:
+    for number, rows in enumerate(sources):
+        if rows is None:
             last_unknown = number
-        for row in source.rows or ():
+        for row in rows or ():
             first.setdefault(row.node, number)
             _set(table.setdefault(row.node, {}), row)
     for node, row_values in table.items():
@@ -237,12 +234,11 @@ def _put(values: dict[str, FinalParameter], new: FinalParameter) -> None:
     values[new.name] = new
 
 
-def _apply_to_component(source: _Source, meant: _Meant, result: dict[str, FinalParameter]) -> None:
+def _apply_to_component(rows: _Rows, meant: _Meant, result: dict[str, FinalParameter]) -> None:
     """Apply one file or parameter as launch does for components."""
-    if source.rows is None:
+    if rows is None:
         result.update({name: value._replace(certain=False) for name, value in result.items()})
-    rows = source.rows or ()
-    for row in sorted(rows, key=lambda row: row.node.strip("/") != "**"):
+    for row in sorted(rows or (), key=lambda row: row.node.strip("/") != "**"):
         truth = meant.by_launch(row.node)
         if truth is not False:
             _set(result, row._replace(certain=row.certain and truth is True))
@@ -260,27 +256,27 @@ def _joined(results: Sequence[dict[str, FinalParameter]]) -> Iterator[FinalParam
 # --- the rows of one entry ---------------------------------------------------------------------------------------------
 
 
-def _source(
+def _rows(
     parameter: GivenParameter, own: str, contents: Contents, substitute: Callable[[str], Texts], unknown: dict[str, None]
-) -> _Source:
+) -> _Rows:
     if parameter.name == UNKNOWN:
         unknown["parameters are computed in a way that ros-lint cannot follow"] = None
-        return _Source(None)
+        return None
     if parameter.name:
-        node = _ANY if parameter.is_rule else own
-        return _Source((_Row(node, parameter.name, parameter.texts, parameter.span, parameter.certain),))
+        node = ANY_NODE if parameter.is_rule else own
+        return (_Row(node, parameter.name, parameter.texts, parameter.span, parameter.certain),)
     rows: list[_Row] = []
     certain = parameter.certain and len(parameter.texts) == 1
     for path in parameter.texts:
         file = contents(path) if is_settled(path) else None
         if file is None:
             unknown[f"the file {readable(path)} is not in the workspace"] = None
-            return _Source(None)
+            return None
         in_file = [_Row(p.node, p.name, (p.text,), p.span, certain) for p in file.parameters]
         for change in parameter.changes:
             in_file = _changed(in_file, change, substitute)
         rows += in_file
-    return _Source(tuple(rows))
+    return tuple(rows)
 
 
 def _changed(rows: list[_Row], change: FilledChange, substitute: Callable[[str], Texts]) -> list[_Row]:
@@ -309,12 +305,12 @@ def _rewritten(rows: Iterable[_Row], change: FilledChange) -> list[_Row]:
     paths = set()
     result: list[_Row] = []
     for row in rows:
-        path = f"{row.node[:1]}{row.node[1:].replace('/', '.')}.{_MARK}.{row.name}"
+        path = f"{row.node[:1]}{row.node[1:].replace('/', '.')}.{PARAMETERS_KEY}.{row.name}"
         paths.add(path)
         texts = values.get(path, values.get(row.name.rpartition(".")[2], row.texts))
         result.append(row._replace(texts=texts))
     for path, texts in change.values:
-        node, mark, name = path.partition(f".{_MARK}.")
+        node, mark, name = path.partition(f".{PARAMETERS_KEY}.")
         if mark and path not in paths:
             result.append(_Row(node.replace(".", "/"), name, texts, None))
     if keys:

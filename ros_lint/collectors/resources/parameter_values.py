@@ -7,13 +7,12 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from ros_lint.base.safe_yaml import YamlBoundError, YamlError, events
-from ros_lint.facts.sources import FileParameter, ParameterType
+from ros_lint.facts.sources import ANY_NODE, PARAMETERS_KEY, FileParameter, ParameterType
 from ros_lint.facts.visibility import Problem
 
 if TYPE_CHECKING:
-    from ros_lint.base.text import Text
+    from ros_lint.base.text import Span, Text
 
-_MARK: Final = "ros__parameters"
 _TRUTHS = frozenset({
     "Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON",
     "N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF",
@@ -35,8 +34,10 @@ _LARGEST: Final = 500_000
 class ParameterValues(NamedTuple):
     """The parameters in a file, and the reasons why rcl refuses the file."""
 
-    parameters: tuple[FileParameter, ...]
-    refusals: tuple[Problem, ...]
+    nodes: tuple[tuple[str, Span], ...] = ()
+    """The names of the nodes, as :attr:`ParameterFile.nodes`."""
+    parameters: tuple[FileParameter, ...] = ()
+    refusals: tuple[Problem, ...] = ()
 
 
 def type_of(text: str, *, quoted: bool = False) -> ParameterType:
@@ -58,24 +59,25 @@ def _fits(text: str) -> bool:
 
 
 def read_values(source: Text) -> ParameterValues:
-    """Return the parameters in a YAML file.
+    """Return the nodes and parameters in a YAML file; none for a file that exceeds a limit or is not valid YAML.
 
     Aliases are replaced by their values, because components, launch and RewrittenYaml (nav2_common) support them.
     """
     if len(source.text) > _LARGEST:
-        return ParameterValues((), ())
+        return ParameterValues()
     try:
         stream = events(source.text)
     except YamlBoundError:
-        return ParameterValues((), ())
+        return ParameterValues()
     except YamlError as error:
         place = source.span(error.offset, error.offset)
-        return ParameterValues((), (Problem("syntax", f"it is not valid YAML: {error.message}", place),))
+        return ParameterValues(refusals=(Problem("syntax", f"it is not valid YAML: {error.message}", place),))
     reader = _Reader(stream)
     reader.read()
-    ranges = sorted({(found.start, found.end) for found in reader.found})
+    ranges = sorted({(found.start, found.end) for found in reader.found} | {(start, end) for _, start, end in reader.nodes})
     spans = dict(zip(ranges, source.spans(ranges), strict=True))
     return ParameterValues(
+        tuple([(name, spans[start, end]) for name, start, end in reader.nodes]),
         tuple(
             [FileParameter(node, name, text, type_, spans[start, end]) for node, name, text, type_, start, end in reader.found]
         ),
@@ -93,11 +95,16 @@ class _Found(NamedTuple):
 
 
 class _Reader:
-    """Reads a list of YAML events. ``refusals`` has kind, message, start and end of each error of rcl."""
+    """Reads a list of YAML events.
+
+    ``nodes`` has the name of each node, with start and end of its last key. ``refusals`` has kind, message, start and end of each
+    error of rcl.
+    """
 
     def __init__(self, stream: Sequence[Any]) -> None:
         self._events = stream
         self._at = 0
+        self.nodes: list[tuple[str, int, int]] = []
         self.found: list[_Found] = []
         self.refusals: list[tuple[str, str, int, int]] = []
 
@@ -105,25 +112,27 @@ class _Reader:
         """Read all documents."""
         while self._at < len(self._events):
             if _kind(self._events[self._at]) == "MappingStart":
-                self._nodes("")
+                self._nodes("", None)
             else:
                 self._at += 1
 
-    def _nodes(self, above: str) -> None:
-        """Read a mapping of node names and namespaces, below the names ``above``."""
+    def _nodes(self, above: str, last: Any) -> None:
+        """Read a mapping of node names and namespaces, below the names ``above``. ``last`` is the key above the mapping."""
         for key, event in self._pairs():
             is_mapping = _kind(event) == "MappingStart"
+            if key is not None and key.value == PARAMETERS_KEY:
+                self.nodes.append((_node_name(above), *_range(last or key)))
             if key is None:
                 self._skip()
-            elif key.value == _MARK and is_mapping and above:
+            elif key.value == PARAMETERS_KEY and is_mapping and above:
                 if not _NAME.fullmatch(above) and _PLACEHOLDER.search(above) is None:
                     self._refuse("bad-name", f"'{above}' is not the name of a node", key)
                 self._parameters(above, "")
-            elif key.value == _MARK:
+            elif key.value == PARAMETERS_KEY:
                 self._refuse("no-value", "ros__parameters has no parameters, or no node name above it", key)
                 self._skip()
             elif is_mapping:
-                self._nodes(f"{above}{'' if above.endswith('/') else '/'}{key.value}" if above else key.value)
+                self._nodes(f"{above}{'' if above.endswith('/') else '/'}{key.value}" if above else key.value, key)
             else:
                 self._refuse("value-outside", f"the value of '{key.value}' is not below ros__parameters", key)
                 self._skip()
@@ -164,10 +173,9 @@ class _Reader:
         event = self._events[self._at]
         if _kind(event) == "Scalar":
             self._at += 1
-            quoted = event.style in ("'", '"') or event.tag == "tag:yaml.org,2002:str"
-            if node and not event.value and not quoted:
+            if not event.value and not _is_quoted(event):
                 self._refuse("no-value", f"'{name}' has no value", key)
-            self._add(node, name, event.value, type_of(event.value, quoted=quoted), key)
+            self._add(node, name, event.value, _type(event), key)
             return
         texts: list[str] = []
         types: list[ParameterType] = []
@@ -176,7 +184,7 @@ class _Reader:
         while _kind(event := self._events[self._at]) != "SequenceEnd":
             if _kind(event) == "Scalar":
                 texts.append(event.value)
-                types.append(type_of(event.value, quoted=event.style in ("'", '"') or event.tag == "tag:yaml.org,2002:str"))
+                types.append(_type(event))
                 self._at += 1
             elif _kind(event) == "Alias":
                 self._note_alias()
@@ -184,20 +192,20 @@ class _Reader:
                 is_flat = False
                 self._skip()
         self._at += 1
-        if node and len(set(types)) > 1:
+        if len(set(types)) > 1:
             self._refuse("mixed-list", f"the list '{name}' has elements of types {' and '.join(dict.fromkeys(types))}", key)
         array: Any = f"{types[0]}_array" if types and is_flat and len(set(types)) == 1 else ""
         self._add(node, name, f"[{', '.join(texts)}]", array, key)
 
     def _add(self, node: str, name: str, text: str, kind: ParameterType, key: Any) -> None:
-        self.found.append(_Found(node, name, text[:_LONGEST], kind, key.start_mark.index, key.end_mark.index))
+        self.found.append(_Found(node, name, text[:_LONGEST], kind, *_range(key)))
 
     def _note_alias(self) -> None:
         self._refuse("alias", "rcl supports no aliases", self._events[self._at])
         self._at += 1
 
     def _refuse(self, kind: str, message: str, event: Any) -> None:
-        self.refusals.append((kind, message, event.start_mark.index, event.end_mark.index))
+        self.refusals.append((kind, message, *_range(event)))
 
     def _skip(self) -> None:
         """Go to the event after the value that begins here."""
@@ -216,3 +224,24 @@ class _Reader:
 def _kind(event: Any) -> str:
     name: str = type(event).__name__
     return name.removesuffix("Event")
+
+
+def _node_name(keys: str) -> str:
+    """Return the full name of the node for the joined keys above its parameters."""
+    if not keys or "{" in keys:  # without a name, or a template
+        return ANY_NODE
+    return "/".join(["", *[part for part in keys.split("/") if part]])
+
+
+def _range(event: Any) -> tuple[int, int]:
+    """Return the start and end offsets of an event; those of a quoted text without its quotes."""
+    start, end = event.start_mark.index, event.end_mark.index
+    return (start + 1, end - 1) if getattr(event, "style", None) in ("'", '"') else (start, end)
+
+
+def _is_quoted(event: Any) -> bool:
+    return event.style in ("'", '"') or event.tag == "tag:yaml.org,2002:str"
+
+
+def _type(event: Any) -> ParameterType:
+    return type_of(event.value, quoted=_is_quoted(event))
