@@ -2,10 +2,10 @@
 
 Run it as a script::
 
-    python -m ros_lint.knowledge.refresh.launch_signatures humble=DIR jazzy=DIR rolling=DIR > signatures.tsv
+    python -m ros_lint.knowledge.refresh.launch_signatures humble=DIR jazzy=DIR > signatures.tsv
 
-Each DIR contains clones of ros2/launch and ros2/launch_ros at the branch of the distribution, in any subfolders. The
-sources are parsed, not imported. The format of the table is described in ``docs/knowledge.md``.
+Each DIR contains the sources of launch and launch_ros that the distribution releases, in any subfolders. The sources are
+parsed, not imported. The format of the table is described in ``docs/knowledge.md``.
 """
 
 from __future__ import annotations
@@ -49,19 +49,27 @@ def signatures(folder: Path) -> dict[str, Signature]:
     """
     classes: dict[str, ast.ClassDef] = {}
     public: set[str] = set()
+    aliases: dict[str, str] = {}
     for path in sorted(folder.rglob("*.py")):
         parts = path.parts
         if "test" in parts or not any(parts[i] == parts[i + 1] in _LIBRARIES for i in range(len(parts) - 1)):
             continue
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ImportFrom) and path.stem == "__init__":
+                aliases |= {alias.asname: alias.name for alias in node.names if alias.asname is not None}
             if not isinstance(node, ast.ClassDef):
                 continue
             is_public = bool(_PARTS.intersection(parts)) or path.stem in _MODULES | _PARTS
             if is_public or node.name not in public:  # events have the names of actions
                 classes[node.name] = node
-            if is_public and not node.name.startswith("_") and not node.name.endswith(("Error", "Failure")):
+            if is_public and not node.name.startswith("_") and not any(map(_is_exception, node.bases)):
                 public.add(node.name)
-    return {name: _signature(name, classes) for name in sorted(public)}
+    names = {name: name for name in public} | {alias: name for alias, name in aliases.items() if name in public}
+    return {name: _signature(names[name], classes) for name in sorted(names)}
+
+
+def _is_exception(base: ast.expr) -> bool:
+    return ast.unparse(base).endswith(("Error", "Exception"))
 
 
 def _signature(name: str, classes: Mapping[str, ast.ClassDef]) -> Signature:

@@ -30,6 +30,17 @@ def _argument(reader: Reader, entity: Entity) -> LaunchAction:
     )
 
 
+def _boolean_argument(reader: Reader, entity: Entity) -> LaunchAction:
+    action = _argument(reader, entity)
+    if action.choices:
+        raise Rejected("unexpected-child", "<bool_arg> cannot have a <choice>", entity.span)
+    return action._replace(choices=_TRUTH_VALUES)
+
+
+_TRUTH_VALUES = ("true", "false", "True", "False", "TRUE", "FALSE")
+"""The values that DeclareBooleanLaunchArgument accepts."""
+
+
 def _plain(entity: Entity, name: str) -> LaunchValue:
     """Return the value of an attribute without expanding its substitutions."""
     value = _unescaped(entity.attributes[name])
@@ -81,6 +92,11 @@ def _reset_environment(reader: Reader, entity: Entity) -> LaunchAction:
     return LaunchAction("reset_environment", entity.span, conditions=reader.conditions(entity))
 
 
+def _replace_environment(reader: Reader, entity: Entity) -> LaunchAction:
+    conditions = reader.conditions(entity)
+    return LaunchAction("other", entity.span, arguments=reader.named(entity, "env"), conditions=conditions)
+
+
 def _bare(reader: Reader, entity: Entity) -> LaunchAction:
     return LaunchAction("other", entity.span, conditions=reader.conditions(entity))
 
@@ -93,6 +109,8 @@ def _reset(reader: Reader, entity: Entity) -> LaunchAction:
 def _log(reader: Reader, entity: Entity) -> LaunchAction:
     conditions = reader.conditions(entity)
     message = reader.text(entity, "message")
+    if entity.tag == "log" and reader.optional(entity, "level") is not None:
+        reader.note_newer("attribute 'level' of <log>", entity.place("level"))
     return LaunchAction("other", entity.span, arguments=(("", message),), conditions=conditions)
 
 
@@ -161,15 +179,17 @@ def _include(reader: Reader, entity: Entity) -> LaunchAction:
 
 TAG_READERS: Mapping[str, TagReader] = {
     "arg": _argument,
+    "bool_arg": _boolean_argument,
     "let": _assignment("set"),
     "set_env": _assignment("environment"),
     "append_env": _append_environment,
     "unset_env": _unset_environment,
+    "rep_env": _replace_environment,
     "reset_env": _reset_environment,
     "reset": _reset,
     "for": _loop,
     "for_each": _loop,
-    "log": _log,
+    **dict.fromkeys(("log", "log_debug", "log_error", "log_info", "log_warning"), _log),
     "shutdown": _shutdown,
     "group": _group,
     "timer": _timer,

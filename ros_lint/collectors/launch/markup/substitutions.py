@@ -12,7 +12,7 @@ from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.launch.markup.substitution_syntax import Literal, Piece, Substitution, SubstitutionError, parse
 from ros_lint.collectors.launch.markup.tags import SUBSTITUTIONS
-from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, quoted
+from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, join_path, quoted
 
 Pieces = tuple[Piece, ...]
 Texts = tuple[str, ...]
@@ -150,6 +150,8 @@ _READERS: Mapping[str, SubstitutionReader] = {
     "filename": lambda rows: (f"{OWN_FOLDER}/{UNKNOWN}",),
     "eval": _of_first(symbolic_text.expression),
     "command": _of_first(symbolic_text.command),
+    "path-join": lambda rows: joined(rows, join_path),
+    "string-join": lambda rows: joined(rows, lambda row: row[0].join(row[1:])),
     "if": _choice,
     "equals": _logic("_equals"),
     "not-equals": _logic("_not_equals"),

@@ -29,7 +29,8 @@ SUBSTITUTIONS: Mapping[str, tuple[int, int]] = {
     "not-equals": (2, 2),
     "or": (2, 2),
     "param": (1, 2),
-    "string-join": (1, 1_000),
+    "path-join": (1, 1_000),
+    "string-join": (2, 1_000),
     "var": (1, 2),
 }
 """The minimum and maximum number of arguments of each substitution."""
@@ -68,9 +69,16 @@ SINCE: Mapping[str, str] = {
     "<set_ros_log_dir>": "iron",  # launch_ros 0.22.0
     "<for>": "kilted",  # launch 3.8.0
     "<for_each>": "kilted",  # launch 3.8.0
-    "<lifecycle_node>": "lyrical",  # launch_ros 0.29.4
+    "<bool_arg>": "lyrical",  # launch 3.9.7
+    "<lifecycle_node>": "jazzy",  # launch_ros 0.26.12
     "<composable_lifecycle_node>": "lyrical",  # launch_ros 0.29.3
+    "<log_debug>": "lyrical",  # launch 3.9.1
+    "<log_error>": "lyrical",  # launch 3.9.1
+    "<log_info>": "lyrical",  # launch 3.9.1
+    "<log_warning>": "lyrical",  # launch 3.9.1
+    "<rep_env>": "lyrical",  # launch 3.9.6
     "<let> in <include>": "jazzy",  # launch 3.4.7
+    "attribute 'level' of <log>": "lyrical",  # launch 3.9.1
     "attribute 'sigkill_timeout'": "iron",  # launch 1.4.0
     "attribute 'sigterm_timeout'": "iron",  # launch 1.4.0
     "attribute 'respawn_max_retries'": "jazzy",  # launch 3.1.0
@@ -78,13 +86,14 @@ SINCE: Mapping[str, str] = {
     "$(eval) with modules": "iron",  # launch 1.4.0
     "$(for-var)": "kilted",  # launch 3.8.0
     "$(index)": "kilted",  # launch 3.8.0
+    "$(path-join)": "lyrical",  # launch 3.9.7
     "$(string-join)": "lyrical",  # launch 3.9.5
 }
 """The first ROS distribution that supports a feature, for features that some supported distributions lack.
 
-From the ``parse`` methods and ``expose_action``, ``expose_substitution`` of the branches humble, iron, jazzy and rolling of
-ros2/launch and ros2/launch_ros as of 2024-12. Later features are from their changelogs of humble (launch 1.0.14, launch_ros
-0.19.13), jazzy (3.4.10, 0.26.11), kilted (3.8.7, 0.28.4) and rolling (3.9.6, 0.29.5).
+From the ``parse`` methods and ``expose_action``, ``expose_substitution`` of the last releases of launch and launch_ros: humble
+(launch 1.0.14, launch_ros 0.19.14), iron (2.0.4, 0.24.2), jazzy (3.4.11, 0.26.12), kilted (3.8.8, 0.28.6), lyrical (3.9.8,
+0.29.9) and rolling (3.10.0, 0.30.1).
 
 Features that updates brought to every supported distribution are omitted: ``on_exit`` and ``emulate_tty``, ``$(if)``,
 ``$(any)``, ``$(all)``, ``$(equals)`` and ``$(not-equals)`` came to humble with launch 1.0.9, ``$(file-content)`` with 1.0.11.

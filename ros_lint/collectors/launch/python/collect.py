@@ -20,6 +20,7 @@ from ros_lint.collectors.launch.python.description_checks import description_pro
 from ros_lint.collectors.launch.python.import_checks import misplaced_imports
 from ros_lint.collectors.launch.python.library import PACKAGE_SUBSTITUTIONS
 from ros_lint.collectors.launch.python.meaning import LaunchLibraries
+from ros_lint.collectors.launch.python.newer_features import newer_features
 from ros_lint.collectors.launch.python.runtime_errors import (
     divided_texts,
     misused_substitutions,
@@ -94,6 +95,7 @@ def collect(
         tuple(_imports(source, tree)),
         interpretation.configurations_read(),
         tuple(sorted(map(str, interpretation.missing_inputs))),  # the cache accepts only plain str
+        version_problems=tuple(dict.fromkeys(interpretation.newer_features(tree))),
         syntax=newer,
     )
 
@@ -159,6 +161,9 @@ class _Interpretation:
         yield from description_problems(tree, self._source)
         yield from dropped_paths(tree, self._source)
         yield from misplaced_imports(tree, self._source)
+
+    def newer_features(self, tree: ast.Module) -> Iterator[Problem]:
+        return newer_features(tree, self._source, self._machine.made)
 
     def read(self, tree: ast.Module, helper: bool) -> None:
         frame = self._machine.run(tree, self._source)

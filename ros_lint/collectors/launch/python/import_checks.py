@@ -19,10 +19,11 @@ _MODULES: Mapping[str, frozenset[str]] = {
     module: frozenset(names.split())
     for module, names in {
         "launch.action": "Action",
-        "launch.actions": """AppendEnvironmentVariable DeclareLaunchArgument EmitEvent ExecuteLocal ExecuteProcess ForEach ForLoop
-            GroupAction IncludeLaunchDescription LogInfo OpaqueCoroutine OpaqueFunction PopEnvironment PopLaunchConfigurations
-            PushEnvironment PushLaunchConfigurations RegisterEventHandler ResetEnvironment ResetLaunchConfigurations
-            SetEnvironmentVariable SetLaunchConfiguration Shutdown TimerAction UnregisterEventHandler UnsetEnvironmentVariable
+        "launch.actions": """AppendEnvironmentVariable DeclareBooleanLaunchArgument DeclareLaunchArgument EmitEvent ExecuteLocal
+            ExecuteProcess ForEach ForLoop GroupAction IncludeLaunchDescription Log LogDebug LogError LogInfo LogWarning
+            OpaqueCoroutine OpaqueFunction PopEnvironment PopLaunchConfigurations PushEnvironment PushLaunchConfigurations
+            RegisterEventHandler ReplaceEnvironmentVariables ResetEnvironment ResetLaunchConfigurations SetEnvironmentVariable
+            SetLaunchConfiguration Shutdown TimerAction UnregisterEventHandler UnsetEnvironmentVariable
             UnsetLaunchConfiguration""",
         "launch.conditions": "IfCondition LaunchConfigurationEquals LaunchConfigurationNotEquals UnlessCondition",
         "launch.event_handlers": """OnActionEventBase OnExecutionComplete OnIncludeLaunchDescription OnProcessExit OnProcessIO
@@ -31,9 +32,9 @@ _MODULES: Mapping[str, frozenset[str]] = {
             PythonLaunchDescriptionSource""",
         "launch.substitution": "Substitution",
         "launch.substitutions": """AllSubstitution AndSubstitution AnonName AnySubstitution Command EnvironmentVariable
-            EqualsSubstitution FileContent FindExecutable ForLoopIndex IfElseSubstitution LaunchConfiguration LaunchLogDir
-            LocalSubstitution NotEqualsSubstitution NotSubstitution OrSubstitution PathJoinSubstitution PathSubstitution
-            PythonExpression StringJoinSubstitution TextSubstitution ThisLaunchFile ThisLaunchFileDir""",
+            EqualsSubstitution FileContent FindExecutable ForEachVar ForLoopIndex IfElseSubstitution LaunchConfiguration
+            LaunchLogDir LocalSubstitution NotEqualsSubstitution NotSubstitution OrSubstitution PathJoinSubstitution
+            PathSubstitution PythonExpression StringJoinSubstitution TextSubstitution ThisLaunchFile ThisLaunchFileDir""",
         "launch_ros.actions": """ComposableNodeContainer LifecycleNode LifecycleTransition LoadComposableNodes Node
             PushROSNamespace PushRosNamespace RosTimer ROSTimer SetParameter SetParametersFromFile SetROSLogDir SetRemap
             SetUseSimTime""",
@@ -43,7 +44,7 @@ _MODULES: Mapping[str, frozenset[str]] = {
 }
 """By module: its public names in any ROS distribution, if launch files use the names.
 
-From launch 3.7.1, launch_ros 0.28 and later.
+From launch 1.0.14 to 3.10.0 and launch_ros 0.19.14 to 0.30.1.
 """
 ACTIONS = _MODULES["launch.actions"] | _MODULES["launch_ros.actions"]
 MODULES_BY_NAME: Mapping[str, tuple[str, ...]] = {

@@ -22,6 +22,10 @@ class Signature(NamedTuple):
     """Keywords without a default in every distribution that has the class."""
     kinds: Mapping[str, str]
     """All keywords in any distribution, each with the accepted kind of value, such as "text"; "" if it is not restricted."""
+    since: str
+    """The first distribution with the class, "" if all distributions of the table have it."""
+    newer: Mapping[str, str]
+    """The first distribution with each keyword that older distributions with the class lack."""
 
     def position(self, keyword: str) -> int:
         """Return the position of a parameter among the positional ones, -1 if the parameter is keyword-only."""
@@ -36,15 +40,20 @@ def all_signatures() -> Mapping[str, Signature]:
     with open(path, encoding="utf-8") as file:
         next(file)
         rows = [line.rstrip("\n").split("\t") for line in file]
-    return {name: _signature(most, words.split()) for name, _, most, words in rows}
+    return {name: _signature(distros, most, words.split()) for name, distros, most, words in rows}
 
 
-def _signature(most: str, words: list[str]) -> Signature:
+def _signature(distros: str, most: str, words: list[str]) -> Signature:
     required: list[str] = []
     kinds: dict[str, str] = {}
+    newer: dict[str, str] = {}
     for word in words:
-        name, _, kind = word.partition("@")[0].partition(":")
-        kinds[name.rstrip("!")] = kind
+        spec, _, known = word.partition("@")
+        name, _, kind = spec.partition(":")
+        keyword = name.rstrip("!")
+        kinds[keyword] = kind
         if name.endswith("!"):
-            required.append(name.rstrip("!"))
-    return Signature(int(most or 0), bool(most), tuple(required), kinds)
+            required.append(keyword)
+        if known:
+            newer[keyword] = known.partition(",")[0]
+    return Signature(int(most or 0), bool(most), tuple(required), kinds, distros.partition(" ")[0], newer)
