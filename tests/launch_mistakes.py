@@ -29,7 +29,10 @@ _VALUES: Mapping[str, str] = {
     "entities": "[LogInfo(msg='a')]",
     "event": "ShutdownEvent()",
     "event_handler": "OnShutdown(on_shutdown=[])",
-    "function": "lambda context: []",
+    "function": "lambda *values, **names: []",
+    "input_values": "'{a: 1}'",
+    "length": "'1'",
+    "level": "'info'",
     "launch_description_source": "LaunchDescriptionSource(LaunchDescription())",
     "on_completion": "[LogInfo(msg='a')]",
     "on_exit": "[LogInfo(msg='a')]",
@@ -49,8 +52,11 @@ _VALUES: Mapping[str, str] = {
 }
 _NEEDED: Mapping[str, Mapping[str, str]] = {
     "ComposableNodeContainer": {"package": "'demo_nodes_cpp'"},
+    "DeclareBooleanLaunchArgument": {"default_value": "'true'"},
     "DeclareLaunchArgument": {"default_value": "'a'"},
     "EnvironmentVariable": {"default_value": "'a'"},
+    "ForEachVar": {"default_value": "'a'"},
+    "ForLoopIndex": {"default_value": "'a'"},
     "IfElseSubstitution": {"if_value": "'a'"},
     "Node": {"package": "'demo_nodes_cpp'"},
 }
@@ -67,16 +73,20 @@ _SKIPPED = frozenset(
     [
         "AnyLaunchDescriptionSource",
         "Command",
+        "ContainerSubstitution",
         "Executable",
         "ExecutableInPackage",
         "ExecuteLocal",
         "FindExecutable",
         "FindPackage",
+        "ForLoopIndex",
         "FrontendLaunchDescriptionSource",
         "LaunchDescriptionSource",
+        "LeftRightLogicalSubstitution",
         "LifecycleNode",
         "LifecycleTransition",
         "LocalSubstitution",
+        "LogInterface",
         "NodeActionExtension",
         "OnActionEventBase",
         "OnExecutionComplete",
@@ -93,6 +103,7 @@ _SKIPPED = frozenset(
         "ROSTimer",
         "RosTimer",
         "SetUseSimTime",
+        "SharedLogSpecificParse",
         "UnregisterEventHandler",
     ]
 )
@@ -126,13 +137,13 @@ def mistakes() -> Iterator[Mistake]:
 
 def _file(name: str, keywords: Mapping[str, str], signature: Signature) -> str:
     made = f"{name}({', '.join(f'{word}={value}' for word, value in keywords.items())})"
-    if "condition" in signature.kinds and name not in ("IfElseSubstitution", "ComposableNode"):
+    if "condition" in signature.kinds and name not in ("IfElseSubstitution", "ComposableLifecycleNode", "ComposableNode"):
         return _with_imports(f"LaunchDescription([{made}])")
     if name == "LaunchDescription":
         return _with_imports(made)
     if name.startswith("On"):
         made = f"RegisterEventHandler({made})"
-    elif name == "ComposableNode":
+    elif name in ("ComposableLifecycleNode", "ComposableNode"):
         made = f"LoadComposableNodes(target_container='/c', composable_node_descriptions=[{made}])"
     elif name in ("ParameterFile", "ParameterValue"):
         inner = made if name == "ParameterFile" else f"{{'a': {made}}}"

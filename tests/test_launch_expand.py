@@ -315,3 +315,33 @@ def test_an_include_that_cannot_be_read_may_set_any_configuration() -> None:
     assert unset(run(xml(body.format("b")))) == []
     assert unset(run(xml(body.format("b")), b=xml('<let name="y" value="1"/>'))) == ["x"]
     assert unset(run(xml(body.format("b")), b=xml('<let name="x" value="1"/>'))) == []
+
+
+def test_words_of_a_command_line_depend_on_their_conditions() -> None:
+    text = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction
+from launch.substitutions import EnvironmentVariable, LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def start(context):
+    words, arguments = ["run"], ["x"]
+    if LaunchConfiguration("loud").perform(context) == "true":
+        words.append("--loud")
+        arguments.append("-v")
+    if EnvironmentVariable("FAST").perform(context) == "1":
+        words.append("--fast")
+    return [ExecuteProcess(cmd=words), Node(package="p", executable="e", arguments=arguments)]
+
+
+def generate_launch_description():
+    return LaunchDescription([DeclareLaunchArgument("loud", default_value="false"), OpaqueFunction(function=start)])
+"""
+    file = collect("pkg/launch/a.launch.py", text)[1]
+    process, node = run(file).started
+    assert set(process.target) == {"run", "run --fast"}
+    assert node.words == (("x",),)
+    process, node = run(file, {"loud": "true"}).started
+    assert set(process.target) == {"run --loud", "run --loud --fast"}
+    assert node.words == (("x",), ("-v",))

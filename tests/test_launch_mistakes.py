@@ -1,6 +1,6 @@
 """Launch files with one mistake each that the real launch refuses, and their correct twins.
 
-``tests/golden/launch_mistakes.txt`` lists the files of :mod:`launch_mistakes` that launch 3.7.1 and launch_ros 0.28.0 refuse
+``tests/golden/launch_mistakes.txt`` lists the files of :mod:`launch_mistakes` that launch 3.9.8 and launch_ros 0.29.9 refuse
 while they accept the twins.
 """
 

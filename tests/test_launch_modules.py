@@ -310,3 +310,22 @@ def generate_launch_description():
     resolved = _completed((package, files))
     (node,) = [action for action in resolved["app/launch/a.launch.py"].actions if action.kind == "node"]
     assert [(name, value.texts) for name, value in node.parameters] == [("", (share("app") + "/config/a.yaml",))]
+
+
+def test_a_default_of_an_argument_from_a_module_is_determined() -> None:
+    files = {
+        "app/names.py": "file = 'robot.yaml'\n",
+        "app/__init__.py": "",
+        "launch/a.launch.py": """
+from app.names import file
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+
+def generate_launch_description():
+    return LaunchDescription([DeclareLaunchArgument("config", default_value=file)])
+""",
+    }
+    package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, ("app",))
+    (argument,) = _completed((package, files))["app/launch/a.launch.py"].actions
+    assert argument.value is not None
+    assert argument.value.texts == ("robot.yaml",)

@@ -257,9 +257,11 @@ def _needs_inputs(file: LaunchFile) -> bool:
 
 
 def _resolvable_values(action: LaunchAction) -> Iterator[LaunchValue]:
-    """Yield the values of a launch action that name packages, executables and parameter files."""
-    yield from (value for value in (action.package, action.target) if value is not None)
+    """Yield the values of a launch action, except the values of parameters and the texts of substitutions in conditions."""
+    values = (action.package, action.target, action.name, action.namespace, action.value)
+    yield from (value for value in values if value is not None)
     yield from (value for name, value in action.parameters if not name)
+    yield from (value for _, value in action.arguments)
 
 
 def _parse_module(text: Text) -> Module | None:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from ros_lint.base.text import Span
     from ros_lint.collectors.launch.final_parameters import Contents, FinalParameters
-    from ros_lint.facts.launch import LaunchAction, LaunchFile
+    from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
 
 _MAX_DEPTH = 20
 _MAX_STARTED = 5_000
@@ -335,13 +335,13 @@ class _Run:
             files_only = tuple([argument for argument in action.parameters if not argument[0]])
             action = action._replace(parameters=files_only, remappings=(), arguments=words_only)
         is_node = action.kind in ("node", "component")
-        words = tuple([self._texts(value, scope) for name, value in action.arguments if not name])
+        words = tuple([word for name, value in action.arguments if not name and (word := self._word(value, scope)) is not None])
         named = [(name, self._texts(value, scope)) for name, value in action.arguments if name]
         given = self._given(action, scope) if is_node else ()
         started = Started(
             action.kind,
             self._texts(action.package, scope),
-            joined(words, " ".join) if words and is_process else self._texts(action.target, scope),
+            joined(words, _command_line) if words and is_process else self._texts(action.target, scope),
             self._texts(action.name, scope),
             _joined_namespaces(scope.namespace, self._texts(action.namespace, scope) or ("",)),
             tuple([(one.name, (*one.texts, UNKNOWN) if one.is_rule and not one.certain else one.texts) for one in given]),
@@ -372,6 +372,15 @@ class _Run:
         self.started.append(started)
         return started
 
+    def _word(self, value: LaunchValue, scope: LaunchScope) -> Texts | None:
+        """Return the possible texts of a word of a command line, among them "" if the word may be absent, None if it is."""
+        if not value.conditions:
+            return self._texts(value, scope)
+        truth, _ = self._filling.truth(value.conditions, scope)
+        if truth is False:
+            return None
+        return self._texts(value, scope) if truth else (*self._texts(value, scope), "")
+
     def _given(self, action: LaunchAction, scope: LaunchScope) -> tuple[GivenParameter, ...]:
         """Return the parameters and parameter files that a node or component gets, in order."""
         own = [self._filling.given(name, value, scope) for name, value in action.parameters]
@@ -394,6 +403,10 @@ class _Run:
             scope.process,
             component=started.kind == "component",
         )
+
+
+def _command_line(words: Sequence[str]) -> str:
+    return " ".join([word for word in words if word])
 
 
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:

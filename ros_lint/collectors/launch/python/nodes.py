@@ -154,7 +154,7 @@ def _process(walker: Walker, launch_object: LaunchObject, conditions: Conditions
     command = launch_object.get(0, "cmd")
     words = items(walker.machine, command) if command is not None else None
     places = _elements(launch_object.written(0, "cmd"), len(words or ()))
-    arguments = [("", walker.text(word, node, launch_object.source)) for word, node in zip(words or (), places, strict=True)]
+    arguments = [("", _word(walker, word, node, launch_object)) for word, node in zip(words or (), places, strict=True)]
     target = arguments[0][1] if arguments else None
     process = LaunchAction(
         "process",
@@ -199,12 +199,18 @@ def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) ->
             word = "" if name in ("arguments", "ros_arguments") else name
             pairs = [(word, value) for value in items(walker.machine, argument) or [argument]]
         places = _elements(node, len(pairs))
-        result += [
-            (word, walker.text(plain(value), at, launch_object.source)) for (word, value), at in zip(pairs, places, strict=True)
-        ]
+        result += [(word, _word(walker, value, at, launch_object)) for (word, value), at in zip(pairs, places, strict=True)]
     given = [name for name in ("prefix", "cwd") if name in launch_object.keywords]
     single_values = [(name, walker.value(launch_object, -1, name)) for name in given]
     return (*result, *[(name, value) for name, value in single_values if value is not None])
+
+
+def _word(walker: Walker, value: Value, node: ast.expr, launch_object: LaunchObject) -> LaunchValue:
+    """Return the possible texts of a word of a command line, with the conditions under which the word is present."""
+    words = list(alternatives(value))
+    if len(words) != 1:
+        return walker.text(value, node, launch_object.source)
+    return walker.text(words[0].value, node, launch_object.source)._replace(conditions=words[0].conditions)
 
 
 def _parameters(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[str, LaunchValue], ...]:
