@@ -558,3 +558,44 @@ def test_the_command_runs_from_the_command_line(
     assert "pass robot:=VALUE" in capsys.readouterr().err
     assert cli.main(["launch", "p", "b.launch.xml", *common]) == 2
     assert "did you mean 'a.launch.xml'?" in capsys.readouterr().err
+
+
+def test_a_raised_exception_ends_the_launch_only_under_its_conditions() -> None:
+    text = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch.conditions import IfCondition
+from launch.substitutions import EnvironmentVariable, LaunchConfiguration
+
+
+def validate(context):
+    if LaunchConfiguration("front").perform(context) == "false" and LaunchConfiguration("rear").perform(context) == "false":
+        raise RuntimeError("there is no camera")
+    if EnvironmentVariable("CAMERA").perform(context) == "none":
+        raise RuntimeError("may not happen")
+    try:
+        raise OSError("caught")
+    except OSError:
+        pass
+
+
+def never(context):
+    raise RuntimeError("never called")
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("front", default_value="false"),
+        DeclareLaunchArgument("rear", default_value="false"),
+        OpaqueFunction(function=validate),
+        OpaqueFunction(function=never, condition=IfCondition(LaunchConfiguration("rear"))),
+    ])
+"""
+    files = package("p", {"launch/a.launch.py": text})
+    _, err, code = ask(files, "p", "a.launch.py")
+    message = "the launch file raises an exception here"
+    assert (err, code) == (f"ros-lint: p/launch/a.launch.py:10:9: {message}: there is no camera\n", 1)
+    _, err, code = ask(files, "p", "a.launch.py", "front:=true")
+    assert (err, code) == ("", 0)
+    _, err, code = ask(files, "p", "a.launch.py", "rear:=true")
+    assert (err, code) == (f"ros-lint: p/launch/a.launch.py:20:5: {message}: never called\n", 1)

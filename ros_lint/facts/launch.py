@@ -92,7 +92,8 @@ class LaunchAction(NamedTuple):
 
     One of ``argument``, ``set``, ``unset``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``,
     ``remap``, ``parameter``, ``environment``, ``unset_environment``, ``reset`` (of all launch configurations except those
-    in ``arguments``), ``reset_environment``, ``later`` (actions of a timer or an event handler) or ``other``.
+    in ``arguments``), ``reset_environment``, ``later`` (actions of a timer or an event handler), ``raise`` (of an exception in
+    a function that launch calls) or ``other``.
     """
     span: Span
     """Place of the action: in Python the whole call, in XML and YAML the name of the element."""
@@ -136,7 +137,7 @@ class LaunchAction(NamedTuple):
     choices: tuple[str, ...] = ()
     """Values that a declared launch argument accepts; () if it accepts any value."""
     description: str = ""
-    """Description of a declared launch argument; "" if there is none or if it is computed."""
+    """Description of a declared launch argument, or the message of an exception; "" if there is none or if it is computed."""
     parameters: tuple[tuple[str, LaunchValue], ...] = ()
     """Names and values of the parameters of a node.
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.budget import Budget
 from ros_lint.collectors.conditional_text import joined
-from ros_lint.collectors.launch.expansion import Argument, Circle, Expansion, Missing, Refused, Started, Unset
+from ros_lint.collectors.launch.expansion import Argument, Circle, Expansion, Missing, Raised, Refused, Started, Unset
 from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, Texts, final_parameters, of_command_line
 from ros_lint.collectors.launch.scope import COMPUTED, Filling, LaunchScope
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_node_renaming, is_settled
@@ -56,6 +56,7 @@ def expand(
         tuple(run.refused),
         tuple(run.circles),
         tuple(run.variables),
+        tuple(run.raised),
         tuple(run.unset),
     )
 
@@ -93,6 +94,7 @@ class _Run:
         self.arguments: list[Argument] = []
         self.refused: list[Refused] = []
         self.circles: list[Circle] = []
+        self.raised: list[Raised] = []
         self.unset: dict[Unset, None] = {}
         self.complete = True
         self._may_be_set = False
@@ -185,6 +187,9 @@ class _Run:
                 self._delayed.append(_Delayed(len(self.started), action.children, snapshot, tuple(self._open), self._via))
             case "include":
                 return outer.after(self._include(action, scope))
+            case "raise":
+                if scope.certain and not scope.later:
+                    self.raised.append(Raised(action.span, action.description))
             case "node" | "component" | "process":
                 started = self._start(action, scope)
                 if action.children:

@@ -126,6 +126,14 @@ class Unset(NamedTuple):
     """The place of the include of the file with the action, None for the launched file."""
 
 
+class Raised(NamedTuple):
+    """An exception that a launch file raises on purpose."""
+
+    span: Span
+    message: str
+    """The message of the exception, "" if it is computed."""
+
+
 class Expansion(NamedTuple):
     """The result of an expansion: all that a launch file starts, in order, and the errors in its launch arguments."""
 
@@ -143,5 +151,7 @@ class Expansion(NamedTuple):
     """Includes with endless recursion."""
     variables: tuple[str, ...] = ()
     """Environment variables without default that the launch file reads, in order."""
+    raised: tuple[Raised, ...] = ()
+    """Exceptions that end the launch."""
     unset: tuple[Unset, ...] = ()
     """Launch configurations without value. They are left out if a part that cannot be followed may set them."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Mapping
 
-from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of
+from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of, span_of
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -83,6 +84,7 @@ def _opaque_function(walker: Walker, launch_object: LaunchObject, conditions: Co
     keywords = plain(launch_object.get(-1, "kwargs"))
     outer_conditions, variables = walker.machine.conditions, walker.machine.variables
     walker.machine.conditions, walker.machine.variables = (), []
+    known_raises = len(walker.machine.raises)
     try:
         result = walker.run(
             launch_object.get(0, "function"),
@@ -95,7 +97,17 @@ def _opaque_function(walker: Walker, launch_object: LaunchObject, conditions: Co
         walker.machine.variables = variables
     # Its assignments may depend on arguments that are declared before it, not on later ones.
     actions = walker.actions(assignments, conditions, place_of(launch_object))
+    actions += [
+        LaunchAction("raise", span_of(node, source), description=_message(node), conditions=(*conditions, *inner))
+        for node, source, inner in walker.machine.raises[known_raises:]
+    ]
     return [*actions, *walker.actions(result, conditions, place_of(launch_object))] if result is not None else actions
+
+
+def _message(node: ast.Raise) -> str:
+    """Return the message of the exception that a raise statement raises, "" if it is computed."""
+    arguments = node.exc.args if isinstance(node.exc, ast.Call) else []
+    return str(arguments[0].value) if len(arguments) == 1 and isinstance(arguments[0], ast.Constant) else ""
 
 
 def _for_each(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:

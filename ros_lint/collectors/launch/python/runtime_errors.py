@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch.python.import_checks import ACTIONS
 from ros_lint.collectors.launch.python.signatures import all_signatures
-from ros_lint.collectors.launch.python.substitutions import is_text
+from ros_lint.collectors.launch.python.substitutions import CONDITIONS, is_text
 from ros_lint.collectors.launch.python.walker import span_of
 from ros_lint.collectors.python.interpreter.recorder import are_unknown
 from ros_lint.collectors.python.interpreter.values import Function, LaunchObject
@@ -198,6 +198,8 @@ _ACCEPTED = frozenset(
     | {"output_format", "reason", "start_state", "transition"}
 )
 """Arguments that are annotated as texts, but accept other values, or are not evaluated when the file is launched."""
+_UNCHECKED = frozenset({("DeclareBooleanLaunchArgument", "name"), ("DeclareLaunchArgument", "name"), ("ForLoop", "name")})
+"""Classes and arguments that are annotated as texts, but accept other values."""
 
 
 def _text_arguments(launch_object: LaunchObject) -> Iterable[tuple[int, str]]:
@@ -208,13 +210,13 @@ def _text_arguments(launch_object: LaunchObject) -> Iterable[tuple[int, str]]:
     signature = all_signatures().get(launch_object.name)
     pairs = list(_TEXT_ARGUMENTS.get(launch_object.name, ()))
     for name, kind in signature.kinds.items() if signature is not None else ():
-        if kind == "text" and name not in _ACCEPTED and (launch_object.name, name) != ("DeclareLaunchArgument", "name"):
+        if kind == "text" and name not in _ACCEPTED and (launch_object.name, name) not in _UNCHECKED:
             pairs.append((signature.position(name) if signature is not None else -1, name))
     return dict.fromkeys(pairs)
 
 
 def wrong_texts(tree: ast.Module, source: Source, launch_objects: Iterable[LaunchObject]) -> Iterator[Problem]:
-    """Yield a problem for each number, boolean or action in an argument that must be a text.
+    """Yield a problem for each number, boolean, action, condition or parameter in an argument that must be a text.
 
     A dictionary as ``launch_arguments`` is a problem, too.
     """
@@ -264,14 +266,18 @@ def wrong_conditions(tree: ast.Module, source: Source, launch_objects: Iterable[
             yield Problem("no-condition", f"'condition' cannot be {message}", span_of(node, source))
 
 
+_NO_TEXTS = ACTIONS | CONDITIONS | {"ComposableNode", "ParameterFile", "ParameterValue"}
+"""Classes of the launch libraries whose objects are no substitutions."""
+
+
 def _first_wrong_item(value: Value) -> bool | int | float | LaunchObject | None:
-    """Return a number, boolean or action in an argument that must be a text, or in its nested lists, None if there is none."""
+    """Return an item that is no text in an argument that must be a text, or in its nested lists, None if there is none."""
     pending = [value]
     for _ in range(_MAX_ITEMS):
         if not pending:
             break
         item = pending.pop()
-        if isinstance(item, (bool, int, float)) or (isinstance(item, LaunchObject) and item.name in ACTIONS):
+        if isinstance(item, (bool, int, float)) or (isinstance(item, LaunchObject) and item.name in _NO_TEXTS):
             return item
         if isinstance(item, (list, tuple)):
             pending += item

@@ -91,6 +91,8 @@ class Recorder:
         """
         self.fallbacks: list[tuple[str, tuple[str, ...]]] = []
         """Texts that a program uses in place of the path of a file that does not exist, with the possible paths of that file."""
+        self.raises: list[tuple[ast.Raise, Source, Conditions]] = []
+        """Statements that raise an exception outside of any try statement, with module and conditions, in order."""
         self.borrows = False
         """True if the program imports a module of a released package that is represented by a model, which is incomplete."""
         self.caught = 0

@@ -175,7 +175,9 @@ def _return(machine: Interpreter, node: ast.Return, frame: Frame) -> int:
     return LEAVE
 
 
-def _raise(_machine: Interpreter, node: ast.Raise, _frame: Frame) -> int:
+def _raise(machine: Interpreter, node: ast.Raise, frame: Frame) -> int:
+    if not machine.caught:
+        machine.raises.append((node, frame.source, machine.conditions))
     raise ProgramRaised(kind_raised(node), deliberate=True)
 
 
