@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from ros_lint.collectors.launch.final_parameters import Contents, FinalParameters
     from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
 
+_ABSENT = "\0"
+"""Stands for a word that a command line may not have. No word contains this character."""
 _MAX_DEPTH = 20
 _MAX_STARTED = 5_000
 _MAX_ACTIONS = 100_000
@@ -340,7 +342,8 @@ class _Run:
             files_only = tuple([argument for argument in action.parameters if not argument[0]])
             action = action._replace(parameters=files_only, remappings=(), arguments=words_only)
         is_node = action.kind in ("node", "component")
-        words = tuple([word for name, value in action.arguments if not name and (word := self._word(value, scope)) is not None])
+        absent = _ABSENT if is_process else ""
+        words = tuple([word for name, value in action.arguments if not name and (word := self._word(value, scope, absent))])
         named = [(name, self._texts(value, scope)) for name, value in action.arguments if name]
         given = self._given(action, scope) if is_node else ()
         started = Started(
@@ -377,14 +380,14 @@ class _Run:
         self.started.append(started)
         return started
 
-    def _word(self, value: LaunchValue, scope: LaunchScope) -> Texts | None:
-        """Return the possible texts of a word of a command line, among them "" if the word may be absent, None if it is."""
+    def _word(self, value: LaunchValue, scope: LaunchScope, absent: str) -> Texts:
+        """Return the possible texts of a word of a command line: () if the word is absent, with ``absent`` if it may be."""
         if not value.conditions:
             return self._texts(value, scope)
         truth, _ = self._filling.truth(value.conditions, scope)
         if truth is False:
-            return None
-        return self._texts(value, scope) if truth else (*self._texts(value, scope), "")
+            return ()
+        return self._texts(value, scope) if truth else (*self._texts(value, scope), absent)
 
     def _given(self, action: LaunchAction, scope: LaunchScope) -> tuple[GivenParameter, ...]:
         """Return the parameters and parameter files that a node or component gets, in order."""
@@ -411,7 +414,7 @@ class _Run:
 
 
 def _command_line(words: Sequence[str]) -> str:
-    return " ".join([word for word in words if word])
+    return " ".join([word for word in words if word != _ABSENT])
 
 
 def _joined_namespaces(outer: Texts, inner: Texts) -> Texts:

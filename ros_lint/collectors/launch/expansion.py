@@ -130,6 +130,7 @@ class Raised(NamedTuple):
     """An exception that a launch file raises on purpose."""
 
     span: Span
+    """The place of the statement that raises it."""
     message: str
     """The message of the exception, "" if it is computed."""
 
