@@ -36,7 +36,7 @@ Not reported:
 - A name that matches without a namespace, if a launch file that includes this one may set the namespace.
 - Launch files of tests and examples.
 - Types: declarations in libraries that the node links, declarations with a computed name or default, declarations in code with
-  `dynamic_typing`, and values that the launch file sets again.
+  `dynamic_typing`, and values that the launch file, another name in the file or a later parameter file may override.
 - Undeclared parameters and unknown nodes: nodes whose code is not in the workspace, uses libraries that may declare parameters,
   or computes names of parameters.
 """

@@ -14,7 +14,7 @@ from ros_lint.facts.launch import walk_actions
 
 if TYPE_CHECKING:
     from ros_lint.analysis.launch.parameter_files import NodeParameterFile
-    from ros_lint.facts.sources import DeclaredParameter, FileParameter
+    from ros_lint.facts.sources import DeclaredParameter, FileParameter, ParameterType
     from ros_lint.workspace.model import Package, Workspace
 
 
@@ -47,24 +47,37 @@ class Undeclared(NamedTuple):
 def wrong_types(uses: Iterable[NodeParameterFile], workspace: Workspace) -> Iterator[WrongType]:
     """Yield the parameters in a file whose types differ from the declarations of the nodes that receive the file.
 
-    ``uses`` are the places where launch files pass the file. Parameters that a launch file changes or sets again are left out.
+    ``uses`` are the places where launch files pass the file. Left out are parameters that may be overridden, in the file or after
+    it, and files that a launch file changes.
     """
     for passed in uses:
         program, names = _receiver(passed, workspace)
-        if program is None or not names or passed.value.changes:
+        if program is None or not names or passed.value.changes or _is_followed_by_a_file(passed):
             continue
-        declared = program.declared
         again = _set_again(passed)
+        rows: dict[str, list[FileParameter]] = {}
         for parameter in passed.file.parameters:
-            found = declared.get(parameter.name)
-            if (
-                found is not None
-                and "" not in (found.type, parameter.type)
-                and found.type != parameter.type
-                and parameter.name not in again
-                and all(matches(parameter.node, name) for name in names)
-            ):
-                yield WrongType(passed, parameter, found, names[0])
+            if parameter.name not in again and any(matches(parameter.node, name) for name in names):
+                rows.setdefault(parameter.name, []).append(parameter)
+        declared = program.declared
+        for name, parameters in rows.items():
+            found = declared.get(name)
+            if found is None or not all(_differ(parameter.type, found.type) for parameter in parameters):
+                continue
+            for parameter in parameters:
+                if all(matches(parameter.node, full) for full in names):
+                    yield WrongType(passed, parameter, found, names[0])
+
+
+def _differ(given: ParameterType, declared: ParameterType) -> bool:
+    return "" not in (given, declared) and given != declared
+
+
+def _is_followed_by_a_file(passed: NodeParameterFile) -> bool:
+    """Return whether the action passes another parameter file after the file, which may override its parameters."""
+    parameters = passed.action.parameters
+    position = next(number for number, (_, value) in enumerate(parameters) if value is passed.value)
+    return any(not name for name, _ in parameters[position + 1 :])
 
 
 def undeclared(uses: Sequence[NodeParameterFile], workspace: Workspace) -> Iterator[Undeclared]:
