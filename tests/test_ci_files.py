@@ -10,8 +10,16 @@ from typing import Any
 
 import pytest
 import yaml
+from packaging.requirements import Requirement
+from packaging.specifiers import SpecifierSet
+from packaging.utils import canonicalize_name
 
 from ros_lint.cli.options import OPTIONS
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
 
 ROOT = Path(__file__).parents[1]
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
@@ -41,6 +49,23 @@ def test_a_workflow_has_no_permissions_except_for_those_of_its_jobs(path: Path) 
     document = yaml.safe_load(path.read_text("utf-8"))
     assert document["permissions"] == {}
     assert all(job["permissions"] for job in document["jobs"].values())
+
+
+def test_every_dependency_has_a_fixed_version_in_ci() -> None:
+    """The versions must satisfy the requirements, or pip finds no solution."""
+    lines = (ROOT / "packaging" / "constraints.txt").read_text("utf-8").splitlines()
+    fixed = [Requirement(line) for line in lines if not line.startswith("#")]
+    versions: dict[str, list[str]] = {}
+    for requirement in fixed:
+        ((_, version),) = [(specifier.operator, specifier.version) for specifier in requirement.specifier]
+        assert requirement.specifier == SpecifierSet(f"=={version}")
+        versions.setdefault(canonicalize_name(requirement.name), []).append(version)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    wanted = [Requirement(text) for group in (project["dependencies"], *extras.values()) for text in group]
+    for requirement in [requirement for requirement in wanted if requirement.name != "ros-lint"]:
+        found = versions[canonicalize_name(requirement.name)]
+        assert all(requirement.specifier.contains(version) for version in found), requirement
 
 
 def test_every_input_of_the_action_is_documented() -> None:
