@@ -180,8 +180,11 @@ def same(first: object, second: object) -> bool:
     return first is second or (first == second and _in_same_order(first, second))
 
 
+_PLAIN = frozenset((str, int, bool, bytes, type(None)))
+
+
 def _in_same_order(first: Any, second: Any) -> bool:
-    if first is second:
+    if first is second or first.__class__ in _PLAIN:
         return True
     if isinstance(first, Mapping):
         return list(first) == list(second) and all(_in_same_order(value, second[key]) for key, value in first.items())

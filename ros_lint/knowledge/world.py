@@ -255,7 +255,8 @@ class World:
 
     def path(self, starts: Iterable[str], goal: str) -> tuple[str, ...]:
         """Return a shortest chain of dependencies from one of ``starts`` to ``goal``, with both ends; () if there is none."""
-        return self._noted_reach.path(starts, goal)
+        names = tuple(starts)
+        return self._questions.ask(("path", names, goal), lambda: self._noted_reach.path(names, goal))
 
     def group_members(self, group: str) -> tuple[str, ...]:
         """Return the packages of all layers that are members of a dependency group (REP 149), sorted."""

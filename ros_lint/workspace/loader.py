@@ -147,7 +147,7 @@ class Loader:
         read: Read | None = None
         for state in states:
             if found is None or found.depends_on_distro:
-                found = state.questions.ask("find", partial(self._find, tree, state.data.target))
+                found = state.questions.ask("find", partial(self._find, tree, state))
                 if sources:
                     self._collect(found, changed, touched)
             state.take(found.packages)
@@ -159,9 +159,9 @@ class Loader:
                 of_manifests = [_manifest_only(package, state.data.target) for package in found.packages]
                 yield self._join(tree, found, of_manifests, state, sources=False)
 
-    def _find(self, tree: Tree, target: TargetDistro) -> _Found:
+    def _find(self, tree: Tree, state: State) -> _Found:
         """Return the packages that colcon finds for a distribution."""
-        roots, discovery = self._discover(tree, target)
+        roots, discovery = self._discover(tree, state)
         packages = [self._without_excluded(package) for package in discovery.packages if not self._exclude(package.path)]
         files = [join(package.path, file) for package in packages for file in package.files]
         lists = repository_lists.find_lists(tree, roots, (*files, *discovery.repository_lists))
@@ -258,7 +258,7 @@ class Loader:
         for path in sorted(by_path):
             yield from by_path[path]
 
-    def _discover(self, tree: Tree, target: TargetDistro) -> tuple[tuple[str, ...], Discovery]:
+    def _discover(self, tree: Tree, state: State) -> tuple[tuple[str, ...], Discovery]:
         """Return the folders that were searched, and the packages in them.
 
         The folders are those of the context: the requested folders, and the folders with packages on which the requested
@@ -268,16 +268,17 @@ class Loader:
         * colcon finds nothing in a requested folder when it starts from the context, for example because an outer folder is
           ignored.
         """
+        context = state.data.target.context
         if self._around:
-            around = discover(tree, self._around, target.context, _MOST_CONTEXT)
+            around = discover(tree, self._around, context, _MOST_CONTEXT, state.questions)
             places = [*(package.path for package in around.packages), *(parent(manifest.path) for manifest in around.rejected)]
             if around.complete and all(any(is_below(place, root) for place in places) for root in self._roots):
                 return self._around, around
             if not around.complete:
                 why = f"there are more than {_MOST_CONTEXT} folders; the requested packages were checked without context"
-                requested = discover(tree, self._roots, target.context)
+                requested = discover(tree, self._roots, context, questions=state.questions)
                 return self._roots, requested._replace(not_checked=(*requested.not_checked, UnreadFile("context", why, None)))
-        return self._roots, discover(tree, self._roots, target.context)
+        return self._roots, discover(tree, self._roots, context, questions=state.questions)
 
     def _distros_named_in(self, tree: Tree, roots: Sequence[str]) -> tuple[NamedDistro, ...]:
         """Return the distributions that the repository builds for."""
@@ -293,7 +294,8 @@ class Loader:
         return package
 
     def _without_excluded(self, package: DiscoveredPackage) -> DiscoveredPackage:
-        return package._replace(files=tuple(file for file in package.files if not self._exclude(join(package.path, file))))
+        files = tuple([file for file in package.files if not self._exclude(join(package.path, file))])
+        return package if len(files) == len(package.files) else package._replace(files=files)
 
     def _collect(self, found: _Found, changed: Mapping[str, bytes], touched: Iterable[str]) -> None:
         """Bring the facts of the files of the found packages up to date. ``changed`` has new contents of files, by path."""

@@ -7,12 +7,15 @@ The packages are those of ``colcon list``: folders are visited as by colcon-recu
 from __future__ import annotations
 
 import sys
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.paths import is_below, join, parent, resolve
+from ros_lint.base.questions import Memo
 from ros_lint.base.text import file_start, read
 from ros_lint.collectors.manifest import collect as manifests
 from ros_lint.facts.environment import ROS_2
+from ros_lint.facts.manifest import ColconMeta
 from ros_lint.workspace.discovery.identify import (
     SIGNS,
     Folder,
@@ -30,8 +33,9 @@ from ros_lint.workspace.target import UnreadFile
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from ros_lint.base.questions import Questions
     from ros_lint.base.tree import Entry, Kind, Tree
-    from ros_lint.facts.manifest import ColconDepend, ColconMeta, ColconSettings, Manifest
+    from ros_lint.facts.manifest import ColconDepend, ColconSettings, Manifest
 
 SKIPPED_FOLDERS = frozenset((".git", ".hg", ".svn", "node_modules", "__pycache__"))
 """Folders that never contain sources."""
@@ -104,123 +108,139 @@ class Discovery(NamedTuple):
     """False if the walk ended early because there are too many folders."""
 
 
-def discover(tree: Tree, roots: Sequence[str], context: Mapping[str, str] = _CONTEXT, most: int = sys.maxsize) -> Discovery:
+class _Visit(NamedTuple):
+    """The result of a visit to one folder."""
+
+    entries: Sequence[Entry] = ()
+    """The entries whose subfolders are visited."""
+    package: DiscoveredPackage | None = None
+    rejected: Manifest | None = None
+    skipped: Skipped | None = None
+    not_checked: tuple[UnreadFile, ...] = ()
+
+
+def discover(
+    tree: Tree,
+    roots: Sequence[str],
+    context: Mapping[str, str] = _CONTEXT,
+    most: int = sys.maxsize,
+    questions: Questions | None = None,
+) -> Discovery:
     """Return the packages below ``roots`` as ``colcon list --base-paths ROOTS`` finds them in the base folder of the tree.
 
     ``roots`` are relative to the base folder; "" is the base folder itself. A ``colcon.meta`` is read in the base folder and in
     each root. ``context`` has the values of variables in conditions of package.xml, which may choose a build type.
-    At most ``most`` folders outside packages are visited.
+    At most ``most`` folders outside packages are visited. ``questions`` keeps the answers about single folders; it must always be
+    used with equal values of ``context``.
     Folders and files that cannot be read are added to ``not_checked``; no contents of the tree cause an exception.
     """
-    return _Walk(tree, context, most).run(roots)
+    return _Walk(tree, context, most, questions or Memo()).run(roots)
 
 
 class _Walk:
-    def __init__(self, tree: Tree, context: Mapping[str, str], most: int) -> None:
+    def __init__(self, tree: Tree, context: Mapping[str, str], most: int, questions: Questions) -> None:
         self._tree = tree
         self._context = context
         self._most = most
+        self._questions = questions
         self._base = tree.identity("")
-        self._packages: list[DiscoveredPackage] = []
-        self._rejected: list[Manifest] = []
-        self._repository_lists: list[str] = []
-        self._skipped: list[Skipped] = []
-        self._not_checked: list[UnreadFile] = []
-        self._settings = MetaSettings({}, {})
+        self._places: tuple[str, ...] = ()
 
     def run(self, roots: Sequence[str]) -> Discovery:
-        self._settings = self._read_meta(("", *roots))
+        self._places = tuple(dict.fromkeys(("", *roots)))
+        _, not_checked = self._meta_settings()
         visited: set[str] = set()
+        visits: list[_Visit] = []
+        links: list[Skipped] = []
+        lists: list[str] = []
         for root in roots:
-            self._crawl(root, visited)
+            self._crawl(root, visited, visits, links, lists)
+        rejected = [visit.rejected for visit in visits if visit.rejected]
+        not_checked = (*not_checked, *(item for visit in visits for item in visit.not_checked))
         return Discovery(
-            tuple(sorted(self._packages, key=lambda package: package.path)),
-            tuple(sorted(self._rejected, key=lambda manifest: manifest.path)),
-            tuple(sorted(self._skipped)),
-            tuple(sorted(self._not_checked, key=lambda item: (item.span or file_start(""), item.what))),
-            tuple(sorted(self._repository_lists)),
+            tuple(sorted([visit.package for visit in visits if visit.package], key=lambda package: package.path)),
+            tuple(sorted(rejected, key=lambda manifest: manifest.path)),
+            tuple(sorted([*links, *(visit.skipped for visit in visits if visit.skipped)])),
+            tuple(sorted(not_checked, key=lambda item: (item.span or file_start(""), item.what))),
+            tuple(sorted(lists)),
             len(visited) <= self._most,
         )
 
-    def _crawl(self, root: str, visited: set[str]) -> None:
+    def _crawl(self, root: str, visited: set[str], visits: list[_Visit], links: list[Skipped], lists: list[str]) -> None:
         todo = [(root, self._tree.identity(root))]
         while todo and len(visited) <= self._most:
             path, identity = todo.pop()
             if identity in visited:
                 continue  # already visited on another path; as in colcon, the first path in name order counts
             visited.add(identity)
-            entries = self._list(path)
-            if entries is None or self._is_package(path, identity, entries):
-                continue
-            for name, kind, link in reversed(entries):
+            visit = self._questions.ask(("visit", path, identity, self._places), partial(self._visit, path, identity))
+            visits.append(visit)
+            for name, kind, link in reversed(visit.entries):
                 if kind == "file" and name.endswith(ENDINGS):
-                    self._repository_lists.append(join(path, name))
+                    lists.append(join(path, name))
                 elif kind == "directory" and not name.startswith(".") and name not in SKIPPED_FOLDERS:
                     child = join(path, name)
                     target = self._tree.identity(child) if link else join(identity, name)
                     if link and target != self._base and is_below(self._base, target):
                         # colcon would crawl everything around the workspace, up to the whole disk.
-                        self._skipped.append(Skipped(child, "a link to a folder that contains the workspace", link=True))
+                        links.append(Skipped(child, "a link to a folder that contains the workspace", link=True))
                     else:
                         todo.append((child, target))
 
-    def _is_package(self, path: str, identity: str, entries: Sequence[Entry]) -> bool:
-        """Identify a folder as colcon does, record the result, and return whether colcon skips the subfolders.
-
-        The result is a package, an ignored folder, a package.xml that colcon cannot use, or nothing. Only in the last two cases
-        the subfolders are visited.
-        """
+    def _visit(self, path: str, identity: str) -> _Visit:
+        """Identify a folder as colcon does. The subfolders of packages and of ignored folders are not visited."""
+        try:
+            entries = self._tree.list(path)
+        except OSError as error:
+            return _Visit(not_checked=(UnreadFile.of(path, error),))
         names = {name: kind for name, kind, _ in entries}
-        if _RELEVANT_NAMES.isdisjoint(names) and identity not in self._settings.by_identity:
-            return False
+        settings, _ = self._meta_settings()
+        if _RELEVANT_NAMES.isdisjoint(names) and identity not in settings.by_identity:
+            return _Visit(entries)
         folder = Folder(self._tree, path, identity, names)
         text = folder.text("package.xml")
         manifest = manifests.collect(text) if text else None
-        verdict = identify(folder, manifest, self._settings, self._context)
-        self._not_checked += folder.not_checked
+        verdict = identify(folder, manifest, settings, self._context)
+        not_checked = tuple(folder.not_checked)
         if isinstance(verdict, Ignored):
-            self._skipped.append(Skipped(path, verdict.reason))
-        elif isinstance(verdict, Identity):
-            files = _PackageFiles(self._tree, path, (self._base, identity))
-            files.gather(entries, identity)
-            self._not_checked += files.not_checked
-            self._packages.append(
-                DiscoveredPackage(
-                    path,
-                    manifest.name if manifest and manifest.name else verdict.name,
-                    verdict.name,
-                    verdict.type,
-                    manifest,
-                    verdict.depends,
-                    tuple(sorted(files.files)),
-                    tuple(sorted(files.nested, key=lambda nested: nested.path)),
-                    tuple(sorted(files.unvisited)),
-                )
-            )
-        elif manifest:
-            self._rejected.append(manifest)
-        return verdict is not None
+            return _Visit(skipped=Skipped(path, verdict.reason), not_checked=not_checked)
+        if not isinstance(verdict, Identity):
+            return _Visit(entries, rejected=manifest, not_checked=not_checked)
+        files = _PackageFiles(self._tree, path, (self._base, identity))
+        files.gather(entries, identity)
+        package = DiscoveredPackage(
+            path,
+            manifest.name if manifest and manifest.name else verdict.name,
+            verdict.name,
+            verdict.type,
+            manifest,
+            verdict.depends,
+            tuple(sorted(files.files)),
+            tuple(sorted(files.nested, key=lambda nested: nested.path)),
+            tuple(sorted(files.unvisited)),
+        )
+        return _Visit(package=package, not_checked=(*not_checked, *files.not_checked))
 
-    def _list(self, path: str) -> list[Entry] | None:
-        try:
-            return self._tree.list(path)
-        except OSError as error:
-            self._not_checked.append(UnreadFile.of(path, error))
-            return None
+    def _meta_settings(self) -> tuple[MetaSettings, tuple[UnreadFile, ...]]:
+        return self._questions.ask(("colcon.meta", self._places), self._read_meta)
 
-    def _read_meta(self, places: Sequence[str]) -> MetaSettings:
+    def _read_meta(self) -> tuple[MetaSettings, tuple[UnreadFile, ...]]:
         by_name: dict[str, ColconSettings] = {}
         by_identity: dict[str, ColconSettings] = {}
-        for place in dict.fromkeys(places):
-            if (meta := self._meta(place)) is None:
+        not_checked: list[UnreadFile] = []
+        for place in self._places:
+            meta = self._meta(place)
+            if isinstance(meta, UnreadFile):
+                not_checked.append(meta)
+            if not isinstance(meta, ColconMeta):
                 continue
             by_name.update(meta.by_name)
             folder = parent(meta.path)
             for path, values in meta.by_path:
                 by_identity[self._tree.identity(resolve(folder, path))] = values
-        return MetaSettings(by_name, by_identity)
+        return MetaSettings(by_name, by_identity), tuple(not_checked)
 
-    def _meta(self, place: str) -> ColconMeta | None:
+    def _meta(self, place: str) -> ColconMeta | UnreadFile | None:
         path = join(place, "colcon.meta")
         try:
             kinds = {name: kind for name, kind, _ in self._tree.list(place)}
@@ -237,10 +257,9 @@ class _Walk:
         except FileNotFoundError:
             return None  # colcon.meta is a folder that contains no colcon.meta
         except OSError as error:
-            self._not_checked.append(UnreadFile.of(path, error))
+            return UnreadFile.of(path, error)
         except colcon_yaml.ColconYamlError as error:
-            self._not_checked.append(UnreadFile(path, str(error), error.span))
-        return None
+            return UnreadFile(path, str(error), error.span)
 
 
 class _PackageFiles:
