@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -13,6 +15,7 @@ from ros_lint.base.columns import Codec
 from ros_lint.cli.main import main
 from ros_lint.workspace.cache.file import CacheFile
 
+ROOT = Path(__file__).parents[1]
 CODEC: Codec[str] = Codec(str)
 
 
@@ -108,6 +111,15 @@ def test_without_a_home_there_is_no_cache(monkeypatch: pytest.MonkeyPatch, capsy
         monkeypatch.delenv(name, raising=False)
     for action in ("info", "clean"):
         assert "there is no cache folder, because neither XDG_CACHE_HOME nor HOME is set" in printed(capsys, action, code=2)
+
+
+def test_a_home_that_does_not_exist_is_not_created(tmp_path: Path) -> None:
+    home = tmp_path / "nonexistent"
+    environment = {"PATH": os.environ["PATH"], "HOME": str(home)}
+    command = [sys.executable, "-m", "ros_lint", str(ROOT / "fixtures" / "workspaces" / "demo")]
+    process = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert process.returncode == 1, process.stderr
+    assert not home.exists()
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["info", "--help"], ["clean", "--help"]])

@@ -23,6 +23,13 @@ def applied(*fixes: Fix) -> str:
     return edits.apply(fixes, lambda path: SOURCE)["f"]
 
 
+def test_inserted_lines_end_like_the_line_at_their_place() -> None:
+    """In a file with both kinds of line ends."""
+    source = Text("f", "one\r\ntwo\nthree\r\n")
+    fixes = [Fix("", (Edit(source.span(place, place), "a\n"),)) for place in (0, 5, 9, 16)]
+    assert edits.apply(fixes, lambda path: source)["f"] == "a\r\none\r\na\ntwo\na\r\nthree\r\na\r\n"
+
+
 def test_edits_do_not_shift_each_other() -> None:
     assert applied(fix((0, 3, "ONE"), (9, 14, "3")), fix((5, 5, "a "), (5, 5, "b "))) == "ONE\r\na b two\n3"
 

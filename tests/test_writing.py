@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -269,3 +270,17 @@ def test_a_report_is_written_to_a_device_and_through_a_link(tmp_path: Path) -> N
     ran = lint(tmp_path / "ws", "--output", tmp_path / "nowhere" / "report")
     assert ran.code == 2
     assert "nowhere/report: cannot be written: No such file or directory" in ran.err
+
+
+@pytest.mark.skipif(not hasattr(os, "setxattr") or os.geteuid() != 0, reason="only root can give files to other users")
+def test_a_changed_file_keeps_its_owner_and_extended_attributes(two: Path) -> None:
+    os.chown(two / "a", 1234, 4321)
+    (two / "a").chmod(0o640)
+    with suppress(OSError):  # not every file system has extended attributes
+        os.setxattr(two / "a", "user.note", b"kept")
+    attributes = os.listxattr(two / "a")
+    edits.write_all(str(two), AFTER, BEFORE)
+    status = (two / "a").stat()
+    assert (two / "a").read_bytes() == b"new"
+    assert (status.st_uid, status.st_gid, status.st_mode & 0o7777) == (1234, 4321, 0o640)
+    assert os.listxattr(two / "a") == attributes

@@ -162,7 +162,10 @@ def _check_writable(path: str, target: str) -> None:
 
 
 def _replace(path: str, target: str, data: bytes, may_replace: Callable[[], bool] = lambda: True) -> None:
-    """Replace a file: write a temporary file in the folder of ``target`` and rename it. Permissions and links are kept.
+    """Replace a file: write a temporary file in the folder of ``target`` and rename it.
+
+    Symbolic links, permissions and extended attributes are kept, and the owner if this process may set it. Another hard link to
+    the file keeps the former content.
 
     ``may_replace`` is called just before the renaming; if it returns False, the target is not replaced. Raises EditError,
     with the target unchanged.
@@ -176,7 +179,7 @@ def _replace(path: str, target: str, data: bytes, may_replace: Callable[[], bool
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        os.chmod(temporary, os.stat(target).st_mode & 0o7777 if os.path.exists(target) else _NEW_MODE)
+        _copy_attributes(target, temporary)
         if not may_replace():
             raise EditError(f"{path}: {_CHANGED}")
         os.replace(temporary, target)
@@ -187,6 +190,20 @@ def _replace(path: str, target: str, data: bytes, may_replace: Callable[[], bool
         if temporary:
             with suppress(OSError):
                 os.unlink(temporary)
+
+
+def _copy_attributes(target: str, temporary: str) -> None:
+    """Give a new file the owner, permissions and extended attributes of ``target``, or usual permissions if it does not exist."""
+    if not os.path.exists(target):
+        os.chmod(temporary, _NEW_MODE)
+        return
+    status = os.stat(target)
+    with suppress(OSError, AttributeError):  # no permission, or not supported by the operating system
+        os.chown(temporary, status.st_uid, status.st_gid)
+    os.chmod(temporary, status.st_mode & 0o7777)
+    with suppress(OSError, AttributeError):
+        for name in os.listxattr(target):
+            os.setxattr(temporary, name, os.getxattr(target, name))
 
 
 _PREFIX, _SUFFIX = ".ros-lint-", ".part"
@@ -208,7 +225,7 @@ def _remove_leftovers(folder: str) -> None:
 
 def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
     text = source.text
-    by_return = "\r\n" in text and text.count("\r\n") == text.count("\n")
+    by_return = "\r\n" in text
     in_order = sorted(edits, key=lambda edit: (edit.span[1:], edit.kind, edit.order))
     if any(edit.span.end_line > source.line_count for edit in in_order):
         raise EditError(f"{source.path}: {_CHANGED}")
@@ -217,9 +234,17 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
         start = source.offset(span.line, span.column)
         end = source.offset(span.end_line, span.end_column)
         replacement = _indented(_joined(at_place), text, start)
-        replacement = replacement.replace("\r\n", "\n").replace("\n", "\r\n") if by_return else replacement
+        if by_return and _ends_with_return(text, start):
+            replacement = replacement.replace("\r\n", "\n").replace("\n", "\r\n")
         text = text[:start] + replacement + text[end:]
     return text
+
+
+def _ends_with_return(text: str, start: int) -> bool:
+    """Return whether the line at an offset ends with CR LF. For the last line, the end of the line before it counts."""
+    end = text.find("\n", start)
+    end = end if end >= 0 else text.rfind("\n", 0, start)
+    return end > 0 and text[end - 1] == "\r"
 
 
 def _indented(replacement: str, text: str, start: int) -> str:

@@ -49,9 +49,12 @@ class CachedWorkspace(NamedTuple):
 
 
 def folder(environment: Mapping[str, str]) -> str:
-    """Return the user's cache folder for ros-lint, or "" if the system has none (XDG base directories)."""
+    """Return the user's cache folder for ros-lint, or "" if the system has none (XDG base directories).
+
+    A home directory that does not exist counts as none, because it must not be created, for example in a container.
+    """
     home = environment.get("HOME") or environment.get("USERPROFILE") or ""
-    caches = environment.get("XDG_CACHE_HOME") or (os.path.join(home, ".cache") if home else "")
+    caches = environment.get("XDG_CACHE_HOME") or (os.path.join(home, ".cache") if os.path.isdir(home) else "")
     return os.path.join(caches, "ros-lint") if os.path.isabs(caches) else ""
 
 
