@@ -23,6 +23,20 @@ def applied(*fixes: Fix) -> str:
     return edits.apply(fixes, lambda path: SOURCE)["f"]
 
 
+def test_a_blank_line_goes_with_the_lines_between_two_blank_lines() -> None:
+    lines = ["a\n", "\n", "b\n", "  c\n", "\n", "d\n"]
+    source = Text("f", "".join(lines))
+
+    def removed(*indices: int) -> str:
+        places = [(len("".join(lines[:index])), len("".join(lines[: index + 1]))) for index in indices]
+        return edits.apply([Fix("", (Edit(source.span(*place), ""),)) for place in places], lambda path: source)["f"]
+
+    assert removed(2, 3) == "a\n\nd\n"
+    assert removed(2) == "a\n\n  c\n\nd\n"
+    assert removed(3) == "a\n\nb\n\nd\n"
+    assert removed(0) == "\nb\n  c\n\nd\n"
+
+
 def test_inserted_lines_end_like_the_line_at_their_place() -> None:
     """In a file with both kinds of line ends."""
     source = Text("f", "one\r\ntwo\nthree\r\n")

@@ -236,8 +236,24 @@ def _apply_to(source: Text, edits: Sequence[Edit]) -> str:
         replacement = _indented(_joined(at_place), text, start)
         if by_return and _ends_with_return(text, start):
             replacement = replacement.replace("\r\n", "\n").replace("\n", "\r\n")
+        if not replacement:
+            end = _with_blank_line(text, start, end)
         text = text[:start] + replacement + text[end:]
     return text
+
+
+_BLANK_BEFORE = re.compile(r"(?:\A|\n)[ \t]*\r?\n\Z")
+_BLANK_AFTER = re.compile(r"[ \t]*\r?\n")
+
+
+def _with_blank_line(text: str, start: int, end: int) -> int:
+    """Return the end of the text to remove from ``start`` to ``end``, with the blank line after it if it is one too many.
+
+    This is the case if whole lines are removed between two blank lines, such as all dependencies of a group.
+    """
+    after = _BLANK_AFTER.match(text, end)
+    removes_lines = start < end and text[end - 1] == "\n"
+    return after.end() if after and removes_lines and _BLANK_BEFORE.search(text, max(0, start - 200), start) else end
 
 
 def _ends_with_return(text: str, start: int) -> bool:
