@@ -48,7 +48,6 @@ _TABLE: Final = (
     ("ros_lint.collectors.cpp.includes._TOKENS", "search", '"', "a\\\n", ""),
     ("ros_lint.collectors.cpp.includes._TOKENS", "search", "'", "a\\\n", ""),
     ("ros_lint.collectors.resources.parameter_files._FIRST", "search", "  .1", " ", ""),
-    ("ros_lint.collectors.resources.parameter_files._KEY", "match", "a", " ", ""),
     ("ros_lint.knowledge.install_prefix._LAUNCH_CONTENT['.xml']", "search", "", "<!-- a -->\n", "<a>"),
     ("ros_lint.knowledge.install_prefix._LAUNCH_CONTENT['.xml']", "search", "", "<?a?>", "<a>"),
     ("ros_lint.collectors.cmake.evaluator.truth.NUMBER", "fullmatch", "", "9", "z"),
