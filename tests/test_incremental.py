@@ -52,6 +52,17 @@ def test_a_load_without_sources_between_two_loads_loses_no_change() -> None:
         assert [use.name for use in workspace.packages[0].declared] == ["rclcpp"]
 
 
+def test_a_package_that_comes_back_has_the_facts_of_its_files_as_they_are_then() -> None:
+    inner = {"a/b/package.xml": manifest_text("b").encode(), "a/b/CMakeLists.txt": b"project(b)\nunknown_function()\n"}
+    comparison = Comparison(inner)
+    comparison.apply({"a/package.xml": manifest_text("a").encode()})  # colcon searches no packages in packages
+    assert comparison.incremental() == comparison.from_scratch()
+    comparison.apply({"a/b/CMakeLists.txt": b"project(b)\nother_function()\n"})
+    assert comparison.incremental() == comparison.from_scratch()
+    comparison.apply({"a/package.xml": None})
+    assert comparison.incremental() == comparison.from_scratch()
+
+
 @pytest.mark.skipif(not _FOLDER, reason="ROS_LINT_EDITED is not set")
 def test_edits_of_a_real_workspace_are_checked_incrementally() -> None:
     comparison = Comparison(files_below(_FOLDER))

@@ -74,8 +74,8 @@ class Reading:
     ) -> Read:
         """Return the packages with the facts of their files, which are ``collected``, by path.
 
-        ``touched`` are the folders of packages with other facts than in the last call. ``earlier`` is the result for another
-        distribution, which is reused as far as possible.
+        ``touched`` are the folders of packages with other facts than in the last call. Packages that were not in the last call
+        may have other facts, too. ``earlier`` is the result for another distribution, which is reused as far as possible.
         """
         self._renew(packages, collected, touched)
         parts = [self._ask(path, self._parts) for path in self._paths]
@@ -109,10 +109,11 @@ class Reading:
 
     def _renew(self, packages: Sequence[DiscoveredPackage], collected: Mapping[str, Collected], touched: Collection[str]) -> None:
         changed = []
+        last = set(self._paths)
         for package in packages:
             folder = package.path
             before = self._entries.get(folder)
-            if before is not None and before.package is package and folder not in touched:
+            if before is not None and before.package is package and folder in last and folder not in touched:
                 continue
             files = {file: collected[path] for file in package.files if (path := join(folder, file)) in collected}
             if (
