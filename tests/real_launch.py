@@ -85,7 +85,7 @@ def make_ros(packages: Mapping[str, str]) -> None:
 
 
 def run(path: str) -> list[dict[str, object]]:
-    """Return what a launch file starts with the defaults of its arguments, in order."""
+    """Return what a launch file starts with the defaults of its arguments, in order. Events happen before timers end."""
     import launch_xml
     import launch_yaml
     from launch import LaunchContext
@@ -93,6 +93,7 @@ def run(path: str) -> list[dict[str, object]]:
     from launch.frontend import Parser
     from launch.launch_description_sources import AnyLaunchDescriptionSource
     from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+    from launch.utilities.type_utils import perform_typed_substitution
     from launch_ros.actions import LoadComposableNodes, Node
 
     # As the entry points of launch_xml, launch_yaml and launch_ros do, which packages that are not installed do not have.
@@ -146,14 +147,31 @@ def run(path: str) -> list[dict[str, object]]:
 
     ExecuteLocal.execute = local
     LoadComposableNodes.execute = load
-    TimerAction.execute = lambda action, context: list(action.actions)
-    RegisterEventHandler.execute = lambda action, context: list(action.event_handler.describe()[1])
+    delayed: list[tuple[float, Callable[[], Iterable[Any]]]] = []
+    now = 0.0
+
+    def start_timer(action: Any, context: Any) -> None:
+        action._TimerAction__context_locals = dict(context.get_locals_as_dict())
+        action._TimerAction__context_environment = dict(context.environment)
+        action._TimerAction__context_launch_configuration = dict(context.launch_configurations)
+        delayed.append((now + perform_typed_substitution(context, action.period, float), lambda: action.handle(context)))
+
+    def register(action: Any, context: Any) -> None:
+        delayed.append((now, lambda: action.event_handler.describe()[1]))
+
+    TimerAction.execute = start_timer
+    RegisterEventHandler.execute = register
 
     def walk(entity: Any) -> None:
         for child in entity.visit(context) or ():
             walk(child)
 
     walk(IncludeLaunchDescription(AnyLaunchDescriptionSource(path)))
+    while delayed:
+        delayed.sort(key=lambda pair: pair[0])
+        now, entities = delayed.pop(0)
+        for entity in entities():
+            walk(entity)
     return started
 
 

@@ -240,24 +240,66 @@ def test_added_lists_are_concatenated() -> None:
     assert not file.opaque
 
 
-def test_timers_and_events_use_values_set_after_them() -> None:
-    """They run after all other actions (launch 3.7.1)."""
-    declared = "DeclareLaunchArgument('which', default_value='one')"
-    node = "Node(package='p', executable=LaunchConfiguration('which'))"
-    prologue = "Node(package='q', executable='first')"
-    epilogue = "Node(package='q', executable='last')"
-    timer = f"TimerAction(period=2.0, actions=[{node}, TimerAction(period=1.0, actions=[{node}])])"
-    expansion = run(python(f"{prologue}, {timer}, {declared}, {timer}, {epilogue}"))
-    assert summaries(expansion) == ["node q first", *["node p one"] * 4, "node q last"]
-    assert [started.later for started in expansion.started] == [False, *[True] * 4, False]
-    assert (
-        summaries(run(python(f"GroupAction([{timer}, SetLaunchConfiguration('which', 'two')]), {declared}")))
-        == ["node p one"] * 2
+LATE = "Node(package='p', executable=LaunchConfiguration('which'))"
+"""A node whose executable is read when launch starts it."""
+
+
+def test_timers_keep_the_values_of_their_place_since_jazzy() -> None:
+    """They run after all other actions, in the order of time (launch 3.10.0, and 1.0.14 for humble)."""
+    first, last = "Node(package='q', executable='first')", "Node(package='q', executable='last')"
+    inner = f"TimerAction(period=1.0, actions=[{LATE}])"
+    timer = f"GroupAction([PushRosNamespace('g'), TimerAction(period=2.0, actions=[{LATE}, {inner}])])"
+    changing = f"TimerAction(period=1.0, actions=[SetLaunchConfiguration('which', 'two'), {LATE}])"
+    file = python(
+        f"SetLaunchConfiguration('which', 'one'), {first}, {timer}, {changing}, SetLaunchConfiguration('which', 'end'), {last}"
     )
-    question = """OpaqueFunction(function=lambda context: [
-        TimerAction(period=2.0, actions=[Node(package='p', executable=LaunchConfiguration('which').perform(context))]),
-    ])"""
-    assert summaries(run(python(f"{declared}, {question}, SetLaunchConfiguration('which', 'two')"))) == ["node p one"]
+    expansion = expand(file, {}, distro="rolling")
+    assert summaries(expansion) == ["node q first", "node p one", "node p one", "node p two", "node q last"]
+    assert [started.later for started in expansion.started] == [False, True, True, True, False]
+    assert [started.namespace for started in expansion.started] == [("",), ("g",), ("g",), ("",), ("",)]
+    expansion = expand(file, {}, distro="humble")
+    assert summaries(expansion) == ["node q first", *["node p two"] * 3, "node q last"]
+    assert [started.namespace for started in expansion.started] == [("",)] * 5
+
+
+@pytest.mark.parametrize(("distro", "value"), [("humble", "two"), ("kilted", "two"), ("lyrical", "one")])
+def test_timers_keep_the_environment_of_their_place_since_lyrical(distro: str, value: str) -> None:
+    timer = "TimerAction(period=2.0, actions=[Node(package='p', executable='a')])"
+    file = python(f"SetEnvironmentVariable('A', 'one'), {timer}, SetEnvironmentVariable('A', 'two')")
+    [node] = expand(file, {}, distro=distro).started
+    assert node.environment == (("A", (value,)),)
+
+
+def test_events_use_values_set_after_them() -> None:
+    event = f"RegisterEventHandler(OnProcessExit(on_exit=[{LATE}, SetLaunchConfiguration('which', 'event'), {LATE}]))"
+    file = python(f"GroupAction([SetLaunchConfiguration('which', 'group'), {event}]), SetLaunchConfiguration('which', 'end')")
+    assert summaries(run(file)) == ["node p end", "node p event"]
+    other = f"RegisterEventHandler(OnProcessExit(on_exit=[{LATE}]))"
+    file = python(f"SetLaunchConfiguration('which', 'end'), {event}, {other}")
+    assert summaries(run(file)) == ["node p end", "node p event", "node p end|event"], "the order of the events is unknown"
+
+
+def test_the_default_of_an_argument_applies_unless_another_event_declares_it_before() -> None:
+    first, second = (
+        f"RegisterEventHandler(OnProcessExit(on_exit=[DeclareLaunchArgument('which', default_value='{value}'), {LATE}]))"
+        for value in ("one", "two")
+    )
+    assert summaries(run(python(f"{first}, {second}"))) == ["node p one", "node p two|one"]
+
+
+@pytest.mark.parametrize(
+    "handler",
+    ["TimerAction(period=2.0, actions=[{}])", "RegisterEventHandler(OnProcessExit(on_exit=[{}]))"],
+    ids=["timer", "event"],
+)
+@pytest.mark.parametrize(
+    "read", ["LaunchConfiguration('which').perform(context)", "context.launch_configurations['which']"], ids=["perform", "item"]
+)
+def test_a_value_that_a_function_reads_before_a_timer_or_event_is_kept(handler: str, read: str) -> None:
+    node = f"Node(package='p', executable={read})"
+    function = f"OpaqueFunction(function=lambda context: [{handler.format(node)}])"
+    file = python(f"SetLaunchConfiguration('which', 'one'), {function}, SetLaunchConfiguration('which', 'two')")
+    assert [summaries(expand(file, {}, distro=distro)) for distro in ("humble", "rolling")] == [["node p one"]] * 2
 
 
 def test_actions_of_a_timer_in_an_included_file_name_the_include() -> None:
@@ -278,7 +320,7 @@ def test_actions_of_a_timer_in_an_included_file_name_the_include() -> None:
         ("'/a', x, 'b'", "/a/b"),
         ("'/', x, 'b'", "/b"),
         ("x, 'b'", "b"),
-        ("'a', x", "a/"),
+        ("'a', x", "a"),
         ("'a', absolute", "/d"),
         ("'a', x, absolute, 'b'", "/d/b"),
         ("'a/', name, 'b'", "a/n/b"),

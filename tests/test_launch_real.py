@@ -1,6 +1,6 @@
 """``ros-lint launch``, compared with the real launch on files that use one construct each.
 
-``tests/golden/real_launch.json`` has what launch 3.7.1 and launch_ros 0.28.0 start. If both can be imported, or
+``tests/golden/real_launch.json`` has what launch 3.10.0 and launch_ros 0.30.1 start. If both can be imported, or
 ROS_LINT_LAUNCH_PATH lists the folders to import them from, ``--bless`` writes the file again, and a test compares it.
 """
 

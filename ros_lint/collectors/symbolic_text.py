@@ -178,7 +178,7 @@ def without_joints(text: str) -> str:
 
 
 def _rejoined(text: str) -> str:
-    """Return a text in which the parts of each joined path are joined, as os.path.join() does."""
+    """Return a text in which the parts of each joined path are joined, as PathJoinSubstitution does: empty parts do not count."""
     first, *parts = _JOINTS.split(text)
     before, path = _before_path(first)
     finished = [before]
@@ -186,7 +186,7 @@ def _rejoined(text: str) -> str:
         before, end = _before_path(part)
         if part.startswith("/"):
             path = ""
-        elif path and not path.endswith("/"):
+        elif part and path and not path.endswith("/"):
             path += "/"
         if before:
             finished.append(path + before)

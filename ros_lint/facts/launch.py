@@ -129,6 +129,7 @@ class LaunchAction(NamedTuple):
     """Values that the action passes by name.
 
     * ``include``: the launch arguments.
+    * ``later``: the launch configurations that the launch file has read before; ``children`` may contain their values.
     * ``process``, ``node``: the words of the command line under "", and further options: ``$VARIABLE`` for an environment
       variable, ``cwd``, ``prefix``.
     """

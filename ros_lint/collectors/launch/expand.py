@@ -7,10 +7,11 @@ unknown: an action under an unknown condition is kept and marked as uncertain.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from ros_lint.base.budget import Budget
 from ros_lint.collectors.conditional_text import joined
+from ros_lint.collectors.launch.delayed import Delayed, assembled, has_own_environment, has_own_values, next_of, time_of
 from ros_lint.collectors.launch.expansion import Argument, Circle, Expansion, Missing, Raised, Refused, Started, Unset
 from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, Texts, final_parameters, of_command_line
 from ros_lint.collectors.launch.scope import COMPUTED, Filling, LaunchScope
@@ -48,7 +49,7 @@ def expand(
     unknown. ``contents`` returns a parameter file by its path; without it, the final parameters of nodes are not computed.
     ``node_name`` returns the name that a program or component gives to its node, "" if it is unknown.
     """
-    run = _Run(files, brief, contents, node_name, {f"${name}": (value,) for name, value in (("ROS_DISTRO", distro),) if value})
+    run = _Run(files, brief, contents, node_name, distro)
     run.file(file, {name: (value,) for name, value in passed.items()})
     return Expansion(
         tuple(run.started),
@@ -63,18 +64,6 @@ def expand(
     )
 
 
-class _Delayed(NamedTuple):
-    """The actions that a timer or an event starts. They are expanded after all other actions."""
-
-    place: int
-    """The number of actions that were started before the timer or the event handler."""
-    actions: tuple[LaunchAction, ...]
-    scope: LaunchScope
-    open: tuple[tuple[str, dict[str, Texts]], ...]
-    """The files that are being included, each with its launch configurations, innermost last."""
-    via: Span | None
-
-
 class _Run:
     def __init__(
         self,
@@ -82,13 +71,14 @@ class _Run:
         brief: bool,
         contents: Contents | None,
         node_name: Callable[[str, str], str],
-        environment: Mapping[str, Texts],
+        distro: str,
     ) -> None:
         self._files = files
         self._brief = brief
         self._contents = contents
         self._node_name = node_name
-        self._filling = Filling(environment)
+        self._distro = distro
+        self._filling = Filling({"$ROS_DISTRO": (distro,)} if distro else {})
         self._texts = self._filling.texts
         self._open: list[tuple[str, dict[str, Texts]]] = []
         self.started: list[Started] = []
@@ -103,9 +93,12 @@ class _Run:
         """True if something that was not followed may have set any launch configuration."""
         self._budget = Budget(_MAX_ACTIONS)
         self._via: Span | None = None
-        self._delayed: list[_Delayed] = []
-        self._values: dict[str, Texts] = {}
-        """Launch configurations that are set outside of scoped groups, with their possible values."""
+        self._delayed: list[Delayed] = []
+        self._handlers = 0
+        self._perhaps: dict[str, Texts] = {}
+        """Values of launch configurations that an event sets, while it is unknown whether another event comes before it."""
+        self._number = 0
+        """The number of actions that were started by the timers and events that are finished."""
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -116,28 +109,43 @@ class _Run:
         folder = file.path.rpartition("/")[0]
         self._may_be_set = bool(file.opaque)
         self._open.append((file.path, dict(passed)))
-        self._values = passed
-        self._actions(file.actions, LaunchScope(passed, (folder or ".",)))
-        self._expand_delayed()
+        now = self._actions(file.actions, LaunchScope(passed, (folder or ".",)))
+        direct, finished = self.started, []
+        while entry := next_of(self._delayed):
+            self.started = []
+            now = self._later(entry, now)
+            self._number += len(self.started)
+            finished.append((entry, self.started))
+        self.started = assembled(direct, finished)
 
-    def _expand_delayed(self) -> None:
-        """Expand the actions of timers and events, and insert the results at the position of the timer or event handler.
+    def _later(self, entry: Delayed, now: LaunchScope) -> LaunchScope:
+        """Expand the actions of a timer or an event, and return the settings in effect after them.
 
-        At this time all files have been expanded, so launch configurations that are set after the timer count, too. A
-        configuration that was set before the timer keeps its value, because a function may read it at that time.
+        ``now`` are the settings in effect when it starts, outside of scoped groups. launch keeps the settings of the place of
+        a timer since jazzy, and its environment since lyrical. Otherwise, and for events, it uses ``now``.
         """
-        delayed, self._delayed = self._delayed, []
-        for entry in reversed(delayed):  # in reverse, so that the positions of the earlier ones remain valid
-            end = len(self.started)
-            self._open, self._via = list(entry.open), entry.via
-            self._actions(
-                entry.actions,
-                entry.scope._replace(values={**self._values, **entry.scope.values}, later=True),
-            )
-            self._expand_delayed()
-            inserted = self.started[end:]
-            del self.started[end:]
-            self.started[entry.place : entry.place] = inserted
+        self._open, self._via = list(entry.open), entry.via
+        scope = entry.scope._replace(later=True)
+        if entry.is_timer and has_own_values(self._distro):
+            if not has_own_environment(self._distro):
+                scope = scope._replace(environment=now.environment)
+            self._actions(entry.actions, scope)
+            return now
+        # A function may have read a configuration before, and put the value into the actions.
+        read = {name: entry.scope.values[name] for name in entry.read if name in entry.scope.values}
+        inner = scope.after(now)._replace(values={**now.values, **read})
+        before = dict(inner.values)
+        after = self._actions(entry.actions, inner)
+        changed = {name: texts for name, texts in inner.values.items() if before.get(name) != texts}
+        if entry.time is not None:
+            now.values.update(changed)
+            return now.after(after) if entry.scope.certain else now
+        for name, texts in changed.items():
+            if name in now.values:
+                self._set(now, name, texts, certain=False)
+            else:
+                self._perhaps[name] = tuple(dict.fromkeys((*self._perhaps.get(name, ()), *texts)))
+        return now
 
     def _actions(self, actions: Iterable[LaunchAction], scope: LaunchScope) -> LaunchScope:
         for action in actions:
@@ -145,7 +153,7 @@ class _Run:
         return scope
 
     def _action(self, action: LaunchAction, scope: LaunchScope) -> LaunchScope:
-        if not self._budget.affords() or len(self.started) > _MAX_STARTED:
+        if not self._budget.affords() or self._number + len(self.started) > _MAX_STARTED:
             self.complete = False
             return scope
         self._filling.unset.clear()
@@ -184,9 +192,15 @@ class _Run:
             case "group":
                 return outer.after(self._group(action, scope))
             case "later":
-                trigger = tuple([f"{period} s" for period in self._texts(action.value, scope)]) or self._texts(action.name, scope)
-                snapshot = scope._replace(values=dict(scope.values), trigger=trigger)
-                self._delayed.append(_Delayed(len(self.started), action.children, snapshot, tuple(self._open), self._via))
+                periods = self._texts(action.value, scope)
+                trigger = tuple([f"{period} s" for period in periods]) or self._texts(action.name, scope)
+                read = tuple([name for name, _ in action.arguments])
+                time = time_of(periods, scope.time)
+                snapshot = scope._replace(values=dict(scope.values), trigger=trigger, time=time)
+                place, via = len(self.started), self._via
+                handler = (tuple(self._open), via, read, action.value is not None, self._handlers)
+                self._delayed.append(Delayed(self.started, place, action.children, snapshot, *handler))
+                self._handlers += 1
             case "include":
                 return outer.after(self._include(action, scope))
             case "raise":
@@ -218,7 +232,8 @@ class _Run:
                 scope.values[name] = (UNKNOWN,)
                 self._filling.required.add(name)
             elif not is_given:
-                self._set(scope, name, self._texts(action.value, scope), scope.certain)
+                perhaps = self._perhaps.get(name, ()) if scope.later else ()
+                self._set(scope, name, tuple(dict.fromkeys((*self._texts(action.value, scope), *perhaps))), scope.certain)
                 self._note_unset(action, scope)
             texts = scope.values[name]
             required = action.value is None

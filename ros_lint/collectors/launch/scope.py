@@ -53,6 +53,8 @@ class LaunchScope(NamedTuple):
     later: bool = False
     trigger: Texts = ()
     """What starts an action that is not started at once, as in :class:`Started`."""
+    time: float | None = 0.0
+    """The time in seconds after the start of the launch, None if it is unknown because an event comes before."""
     include: Span | None = None
     """The place of the include action that includes the current file, None for the launched file."""
 

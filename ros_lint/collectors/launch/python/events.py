@@ -19,21 +19,30 @@ from ros_lint.collectors.python.interpreter.values import (
     alternatives,
     plain,
 )
-from ros_lint.collectors.symbolic_text import UNKNOWN
+from ros_lint.collectors.symbolic_text import UNKNOWN, configuration
 from ros_lint.facts.launch import TIMER, LaunchAction, LaunchValue
 
 
 def _timer(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
-    place = place_of(launch_object)
+    place, read = place_of(launch_object), _values_read(walker, launch_object)
     children = walker.actions(launch_object.get(-1, "actions"), (), place)
     period = walker.value(launch_object, -1, "period")
     trigger = LaunchValue((TIMER,), place)
-    return [LaunchAction("later", place, name=trigger, value=period, conditions=conditions, children=tuple(children))]
+    return [
+        LaunchAction("later", place, name=trigger, value=period, arguments=read, conditions=conditions, children=tuple(children))
+    ]
+
+
+def _values_read(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[str, LaunchValue], ...]:
+    """Return the launch configurations that functions have read so far; their values may be in the actions of an event."""
+    place = place_of(launch_object)
+    return tuple([(name, LaunchValue((configuration(name),), place)) for name in walker.machine.read])
 
 
 def _event(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     """Return the actions that a RegisterEventHandler starts: those in its handler, or the result of the handler's function."""
     actions: list[LaunchAction] = []
+    read = _values_read(walker, launch_object)
     for alternative in alternatives(launch_object.get(0, "event_handler")):
         handler = alternative.value
         if isinstance(handler, Instance):
@@ -44,7 +53,7 @@ def _event(walker: Walker, launch_object: LaunchObject, conditions: Conditions) 
         return []
     place, handler = place_of(launch_object), plain(launch_object.get(0, "event_handler"))
     trigger = LaunchValue((handler.name if isinstance(handler, LaunchObject) else UNKNOWN,), place)
-    return [LaunchAction("later", place, name=trigger, conditions=conditions, children=tuple(actions))]
+    return [LaunchAction("later", place, name=trigger, arguments=read, conditions=conditions, children=tuple(actions))]
 
 
 def _handler_actions(walker: Walker, handler: LaunchObject) -> list[LaunchAction]:
@@ -68,6 +77,7 @@ def later(walker: Walker, launch_object: LaunchObject, *names: str) -> list[Laun
     Each argument may also be a function that returns the actions.
     """
     actions: list[LaunchAction] = []
+    read = _values_read(walker, launch_object)
     for name in names:
         for alternative in alternatives(launch_object.get(-1, name)) if name in launch_object.keywords else ():
             value = alternative.value
@@ -76,7 +86,8 @@ def later(walker: Walker, launch_object: LaunchObject, *names: str) -> list[Laun
             if value is not None and not isinstance(value, Unknown):
                 actions += walker.actions(value, alternative.conditions, place_of(launch_object))
     place = place_of(launch_object)
-    return [LaunchAction("later", place, name=LaunchValue((names[0],), place), children=tuple(actions))] if actions else []
+    trigger = LaunchValue((names[0],), place)
+    return [LaunchAction("later", place, name=trigger, arguments=read, children=tuple(actions))] if actions else []
 
 
 def _opaque_function(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:

@@ -221,7 +221,7 @@ def _method(call: LibraryCall, owner: LaunchObject) -> Value:
         owner.entities += [machine.guard(item) for item in call.items(0) or [call.get(0)]]
         return None
     if name in ("perform", "toxml", "toprettyxml"):
-        return call.result(machine.texts(owner))
+        return _read(call, machine.texts(owner))
     if name == "find" and owner.name in PACKAGE_SUBSTITUTIONS:
         return (_share if owner.name == "FindPackageShare" else _prefix)(call)
     if name == "evaluate":
@@ -283,13 +283,19 @@ def _first_argument(call: LibraryCall) -> Value:
 
 
 def _perform(position: int) -> Rule:
-    return lambda call: call.result(call.machine.texts(call.get(position)))
+    return lambda call: _read(call, call.machine.texts(call.get(position)))
+
+
+def _read(call: LibraryCall, texts: tuple[str, ...]) -> Value:
+    """Return the result of a call that reads launch configurations at once."""
+    call.machine.note_read(texts)
+    return call.result(texts)
 
 
 def _configuration(call: LibraryCall) -> Value:
     default = call.get(1)
     defaults = call.texts(1) if default is not None else (None,)
-    return call.result(tuple(symbolic_text.configuration(name, value) for name in call.texts(0) for value in defaults))
+    return _read(call, tuple(symbolic_text.configuration(name, value) for name in call.texts(0) for value in defaults))
 
 
 def _xacro_output(call: LibraryCall) -> Value:
@@ -336,7 +342,9 @@ def subscript_library(machine: Interpreter, owner: Value, key: Value) -> Value:
         if owner.name == "os.environ":
             return union(machine.variable(name) for name in text_of(key))
         if owner.name == "context.launch_configurations":
-            return union(symbolic_text.configuration(name) for name in text_of(key))
+            configurations = [symbolic_text.configuration(name) for name in text_of(key)]
+            machine.note_read(configurations)
+            return union(configurations)
     if isinstance(owner, (Unknown, LibraryName)):
         return Unknown("an element of an unknown value")
     machine.escape(owner)

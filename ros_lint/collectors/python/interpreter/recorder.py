@@ -24,7 +24,7 @@ from ros_lint.collectors.python.interpreter.values import (
     environment,
     union,
 )
-from ros_lint.collectors.symbolic_text import UNKNOWN
+from ros_lint.collectors.symbolic_text import UNKNOWN, named_in
 from ros_lint.facts.launch import LaunchCondition
 
 How = Literal["added", "joined", "formatted", "compared", "tested", "combined"]
@@ -99,12 +99,19 @@ class Recorder:
         """The number of try statements with handlers around the interpreted statement."""
         self.guarded = 0
         """The number of try statements around the interpreted statement that catch the error of a missing file."""
+        self.read: dict[str, None] = {}
+        """Launch configurations whose values functions of the program read while launch runs, in order."""
         self.lazily: set[str] = set()
         """Packages that launch looks up while it runs the launch description, for example for ``FindPackageShare``."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
         """The first expression that names each looked-up package, a literal if possible, by the name or symbolic text."""
         self.variables: list[LaunchObject] = []
         """Actions that set environment variables of the launch process or launch configurations, in order."""
+
+    def note_read(self, texts: Iterable[str]) -> None:
+        """Record the launch configurations in texts that the program reads while launch runs."""
+        for text in texts:
+            self.read.update(dict.fromkeys(() if text.isascii() else named_in(text) or ()))
 
     # --- conditions -----------------------------------------------------------------------------------------------
 
