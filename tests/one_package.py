@@ -15,7 +15,7 @@ from tests.packages import manifest_text
 BUILT = Role.BUILD | Role.EXEC
 PUBLIC = BUILT | Role.EXPORT
 HIDDEN = "include(${UNHEARD_OF}/all.cmake)\n"
-"""A line after which nobody knows which targets there are, nor what is installed."""
+"""A line after which neither the targets nor the installed files are known."""
 INSTALLED = "install(DIRECTORY include/ DESTINATION include)\n"
 
 

@@ -79,7 +79,7 @@ CMAKE: Final = {
 
 _TWO_LISTS: Final = "x = [0]\ny = [0]\n" + "x = [x, x]\ny = [y, y]\n" * 30
 _TWO_TUPLES: Final = "x = (0,)\ny = (0,)\n" + "x = (x, x)\ny = (y, y)\n" * 30
-"""Each holds the one before twice: a billion elements for whoever goes through them."""
+"""Each holds the one before twice, so that they have a billion elements in all."""
 
 
 def _rounds(rounds: int, line: str) -> str:

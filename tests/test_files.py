@@ -143,7 +143,7 @@ def test_a_file_larger_than_the_memory_is_not_read(tmp_path: Path, name: str) ->
     package(tmp_path / "good", "good")
     place = package(tmp_path / "large", "large") / name
     with (tmp_path / "large" / "CMakeLists.txt").open("a") as script:
-        script.write("find_package(nobody_knows REQUIRED)\n")
+        script.write("find_package(unknown_package REQUIRED)\n")
     place.parent.mkdir(exist_ok=True)
     place.write_text("// text\n" * 1000)
     os.truncate(place, 1 << 32)
@@ -162,7 +162,7 @@ def test_a_file_larger_than_the_memory_is_not_read(tmp_path: Path, name: str) ->
 def test_many_large_files_do_not_exhaust_the_memory(tmp_path: Path) -> None:
     large = package(tmp_path / "large", "large")
     with (large / "CMakeLists.txt").open("a") as script:
-        script.write("find_package(OpenCV REQUIRED)\nfind_package(nobody_knows REQUIRED)\n")
+        script.write("find_package(OpenCV REQUIRED)\nfind_package(unknown_package REQUIRED)\n")
     (large / "a.csv").write_bytes(b"1, 2\n" * 700_000)
     for number in range(250):
         (large / f"{number}.csv").hardlink_to(large / "a.csv")

@@ -97,3 +97,7 @@ def test_matlab_scripts_mention_interface_packages(text: str, expected: list[str
     mentions = collected("scripts/talk.m", text)
     assert [mention.name for mention in mentions] == expected
     assert all(mention.optional for mention in mentions)
+
+
+def test_a_manifest_of_cargo_without_sections_mentions_nothing() -> None:
+    assert collected("Cargo.toml", "rclrs = '*'\n") == ()

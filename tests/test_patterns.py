@@ -21,6 +21,7 @@ import ros_lint
 import ros_lint_rules
 from ros_lint.base.gitignore import is_ignored, patterns
 from ros_lint.base.text import Text
+from ros_lint.collectors import suppressions
 from ros_lint.collectors.cmake.evaluator.glob import path_pattern
 from ros_lint.collectors.colcon import cmake_lists as colcon_cmake
 
@@ -54,6 +55,13 @@ _TABLE: Final = (
     ("ros_lint.collectors.cmake.evaluator.truth.NUMBER", "fullmatch", "0x", "f", "z"),
 )
 """Expressions that took exponential or quadratic time for these texts."""
+_COMMENTED: Final = (
+    ("CMakeLists.txt", "#", ("[", "#[[\n", "[=[\n", "#[=[ ")),
+    ("package.xml", "<!-- -->", ("<?", "<![CDATA[", "<!DOCTYPE [", "<!-- ")),
+    ("a.cpp", "//", ('R"(', 'R"a(\n', "/*", "\\\n")),
+    ("a.msg", "#", ("'", "\t")),
+)
+"""Paths of files, a sign of their comments, and what opens a comment or string that is never closed."""
 _PARTS: Final = (" ", "\t", "\n", "a", "A", "1", "_", ".", "-", "/", "#", '"', "\\\n", "()", "[]", "<a>", "<!---->", "<?a?>")
 _METHODS: Final = ("search", "match", "fullmatch")
 
@@ -111,6 +119,11 @@ def _run_collectors() -> None:
     for prefix, part in (("", "find_package(a "), ("", "pkg_check_modules(a "), ("pkg_check_modules(", "a")):
         _limit(f"colcon_cmake.depends {part!r}")
         colcon_cmake.depends(Text("CMakeLists.txt", prefix + part * _LONG))
+    for path, sign, parts in _COMMENTED:
+        for part in (*parts, " ", "a ", "#", "/", "ros-lint: ignore[", '\\"', '"'):
+            _limit(f"suppressions of {path} {part!r}")
+            list(suppressions.collect(Text(path, f"{sign} ros-lint: ignore[x] {part * (_LONG // 4)}a")))
+            list(suppressions.collect(Text(path, f"{part * (_LONG // 4)}\n{sign} ros-lint: ignore[x]")))
 
 
 def _run_globs() -> None:

@@ -267,7 +267,7 @@ def test_places() -> None:
 
 
 def syntax(source: Text) -> Problem | None:
-    """Return what is told to be wrong with a source, None also when this interpreter reads it."""
+    """Return the syntax error of a source, None also if this interpreter accepts it."""
     try:
         parse(source)
     except NotPythonError as error:

@@ -103,7 +103,7 @@ CHANGES: dict[str, Callable[[Path], object]] = {
     "a link that leads to the like": _swap,
     "a manifest": _append(f"{DRIVER}/package.xml", "<!-- the end -->"),
     "a build script": _append(f"{DRIVER}/CMakeLists.txt", "find_package(nav_msgs REQUIRED)\n"),
-    "a file that nobody reads": _write(f"{DRIVER}/docs/more/notes.txt", "x"),
+    "a file that is not read": _write(f"{DRIVER}/docs/more/notes.txt", "x"),
     "a new source": _write(f"{DRIVER}/src/more/a.cpp", "#include <nav_msgs/msg/path.hpp>\n"),
     "a file that goes": lambda workspace: (workspace / DRIVER / "src" / "driver_node.cpp").unlink(),
     "a mode": lambda workspace: (workspace / DRIVER / "CMakeLists.txt").chmod(0o755),
@@ -145,7 +145,7 @@ def test_files_outside_a_package_that_its_scripts_name_are_watched(
 ) -> None:
     includes = "include(../shared/x.cmake)\ninclude(../shared/y.cmake OPTIONAL)\n"
     _append(f"{DRIVER}/CMakeLists.txt", f"{includes}install(DIRECTORY ../shared/launch DESTINATION share)\n")(workspace)
-    _write("src/shared/COLCON_IGNORE", "")(workspace)  # so that nobody else looks into it
+    _write("src/shared/COLCON_IGNORE", "")(workspace)  # so that only one package reads it
     _write("src/shared/x.cmake", "find_package(std_srvs REQUIRED)\n")(workspace)
     _write("src/shared/launch/a.launch.py", "")(workspace)
     test_each_change_of_the_workspace_causes_a_run(workspace, monkeypatch, change)

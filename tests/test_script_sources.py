@@ -121,7 +121,7 @@ def test_a_folder_is_built_where_the_script_says() -> None:
     assert {one.path for one in script.products.installs} == {"share/p/made/b.yaml", "share/q/deep/lib/made/b.yaml"}
 
 
-def test_what_a_script_around_a_package_needs_is_told_where_it_is_included() -> None:
+def test_what_a_script_around_a_package_needs_is_reported_where_it_is_included() -> None:
     files = {"ws/cmake/x.cmake": "find_package(std_msgs REQUIRED)\ntarget_link_libraries(a ${std_msgs_LIBRARIES})\n"}
     script = run("add_library(a a.cpp)\ninclude(../cmake/x.cmake)", files)
     found = [(mention.name, mention.via, mention.span.path, mention.span.line) for mention in script.mentions]

@@ -50,7 +50,7 @@ def test_an_ignored_folder_is_installed_when_it_is_asked_for() -> None:
     assert "share/p/x/sub/a.txt" in installed(load("install(DIRECTORY x DESTINATION share/p)\n", **files))
 
 
-def test_a_script_that_fails_us_is_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_script_that_fails_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise ValueError("oh")
 
@@ -95,7 +95,7 @@ SETUP = {
         ("p/setup.cfg", "ament_python", ALL_FACETS),
     ],
 )
-def test_a_file_that_nobody_may_read_hides_what_it_could_say(locked: str, build_type: str, hides: Facet) -> None:
+def test_an_unreadable_file_hides_what_it_may_contain(locked: str, build_type: str, hides: Facet) -> None:
     texts = {"p/package.xml": XML.format("p").replace("ament_cmake", build_type), **SETUP}
     target = TargetDistro("jazzy", "test")
     seen = Loader(MemoryTree(texts), ("",), target).load().by_name["p"][0]

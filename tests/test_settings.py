@@ -1,7 +1,10 @@
 """Settings: their order of precedence, validation and origins."""
 
+import os
 import re
 import time
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +48,56 @@ def test_the_nearest_file_with_settings_is_used(tmp_path: Path) -> None:
     assert settle({}, str(inner), {})["distro"] == ("humble",)
     (inner / "ros-lint.toml").write_text('distro = "jazzy"')
     assert settle({}, str(inner), {})["distro"] == ("jazzy",)
+
+
+def test_a_file_above_the_repository_is_not_used(tmp_path: Path) -> None:
+    package = tmp_path / "repository/src/a"
+    package.mkdir(parents=True)
+    (tmp_path / "repository/.git").mkdir()
+    above = tmp_path / "ros-lint.toml"
+    above.write_text('distro = "humble"\n')
+    result = settle({}, str(package), {})
+    assert result["distro"] == ()
+    assert result.warnings == (f"{above}: not used, because it is above {tmp_path / 'repository'}; use --config to use it",)
+    assert settle({"config": str(above)}, str(package), {})["distro"] == ("humble",)
+    (tmp_path / "repository/ros-lint.toml").write_text('distro = "jazzy"\n')
+    result = settle({}, str(package), {})
+    assert (result["distro"], result.warnings) == (("jazzy",), ())
+
+
+def test_a_file_at_the_root_of_a_workspace_of_repositories_is_used(tmp_path: Path) -> None:
+    (tmp_path / "src/repository/.git").mkdir(parents=True)
+    (tmp_path / "ros-lint.toml").write_text('distro = "humble"\n')
+    assert settle({}, str(tmp_path / "src/repository"), {})["distro"] == ()
+    (tmp_path / "install").mkdir()  # colcon has built in it, so it is a workspace
+    result = settle({}, str(tmp_path / "src/repository"), {})
+    assert (result["distro"], result.warnings) == (("humble",), ())
+
+
+def test_a_file_of_another_user_above_the_folder_is_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "a"
+    folder.mkdir()
+    above = tmp_path / "ros-lint.toml"
+    above.write_text('distro = "humble"\n')
+    mine = folder.stat().st_uid
+    monkeypatch.setattr(os, "geteuid", lambda: mine)
+    others = {str(above): mine + 1}
+    for name in ("stat", "lstat"):
+        monkeypatch.setattr(os, name, partial(_with_owner, getattr(os, name), others))
+    result = settle({}, str(folder), {})
+    assert result["distro"] == ()
+    assert result.warnings == (f"{above}: not used, because it belongs to another user; use --config to use it",)
+    others[str(folder)] = mine + 1  # a mounted workspace, for example
+    assert settle({}, str(folder), {})["distro"] == ("humble",)
+    others.clear()
+    assert settle({}, str(folder), {})["distro"] == ("humble",)
+
+
+def _with_owner(get: Callable[..., os.stat_result], others: Mapping[str, int], path: Any, **options: Any) -> os.stat_result:
+    result = get(path, **options)
+    fields = list(result)
+    fields[4] = others.get(str(path), result.st_uid)
+    return os.stat_result(fields)
 
 
 def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:

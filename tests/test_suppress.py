@@ -116,7 +116,7 @@ def test_comments_before_a_syntax_error_count() -> None:
     assert single("a.yaml", f"a: @x@ # {MARK}\nb: [\n")
 
 
-# --- against parsers nobody here wrote -----------------------------------------------------------------------------
+# --- against other parsers ------------------------------------------------------------------------------------------
 
 XML_PARTS = st.sampled_from(
     [
@@ -265,6 +265,32 @@ def test_invalid_suppressions_are_problems(comment: str, problem: str) -> None:
 @pytest.mark.parametrize("comment", ["run ros-lint: it helps", "ros-lint: 5 lines", "as ros-lint: rules", "ros-lint:"])
 def test_sentences_about_ros_lint_are_not_suppressions(comment: str) -> None:
     assert collect(Text("a.py", f"# {comment}\n")) == ()
+
+
+@pytest.mark.parametrize(
+    ("path", "comment"),
+    [
+        ("a.xml", "<!-- {mark} why -->"),
+        ("a.cpp", "/* {mark} why **/"),
+        ("a.cmake", "#[[ {mark} why ]]"),
+        ("a.cmake", "#[=[ {mark} why ]=]"),
+        ("a.cpp", "// {mark} why  // [a]"),
+    ],
+)
+def test_the_reason_ends_before_the_end_of_its_comment(path: str, comment: str) -> None:
+    assert single(path, comment.format(mark="ros-lint: ignore[x]")).reason == "why"
+    assert single(path, comment.format(mark="ros-lint: ignore[x] -")).reason == "why"
+
+
+@pytest.mark.parametrize("reason", ["a]", "a]=", "a]==", "a >", "a #b"])
+def test_the_reason_may_end_like_a_comment_of_another_kind(reason: str) -> None:
+    assert single("a.cpp", f"// ros-lint: ignore[x] {reason}").reason == reason
+
+
+def test_comments_and_strings_that_are_not_closed_do_not_hide_what_follows() -> None:
+    for path, text in (("a.xml", "<? <![CDATA["), ("a.cpp", 'int a = R"b('), ("a.cmake", "a[=[b"), ("a.cmake", "#[[")):
+        sign = "<!-- ros-lint: ignore[x] -->" if path == "a.xml" else "# ros-lint: ignore[x]"
+        assert single(path, f"{text}\n{sign.replace('#', '//') if path == 'a.cpp' else sign}\n").reason == ""
 
 
 def test_several_names_and_suppressions_in_a_comment() -> None:

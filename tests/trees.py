@@ -8,7 +8,7 @@ from ros_lint.base.tree import MemoryTree
 
 
 class Locked(MemoryTree):
-    """Has a file that nobody may read."""
+    """Has a file without permission to read it."""
 
     def __init__(self, files: Mapping[str, str | bytes], locked: str, executable: frozenset[str] = frozenset()) -> None:
         super().__init__(files, executable)

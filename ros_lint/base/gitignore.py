@@ -28,8 +28,10 @@ class Pattern(NamedTuple):
 def patterns(folder: str, text: str) -> Iterator[Pattern]:
     """Yield the patterns of a ``.gitignore`` file, in order. ``folder`` is its folder and ``text`` its contents."""
     for raw_line in text.split("\n"):
-        line = _trimmed(raw_line.removesuffix("\r"))
-        if line.startswith("#"):
+        line = raw_line.removesuffix("\r")
+        if line.endswith(" "):
+            line = _trimmed(line)
+        if not line or line.startswith("#"):
             continue
         negated = line.startswith("!")
         glob = line[negated:].removesuffix("/")

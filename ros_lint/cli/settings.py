@@ -1,7 +1,7 @@
 """Read the settings and record their origins. Precedence: command line, configuration file, environment, defaults.
 
 The configuration file is the nearest ``ros-lint.toml``, or ``pyproject.toml`` with a table ``[tool.ros-lint]``, in the
-workspace folder or a folder above it.
+workspace folder or a folder above it, up to the root of its repository.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ros_lint.base import files
-from ros_lint.base.paths import upwards
+from ros_lint.base.paths import is_below, upwards
 from ros_lint.base.suggestions import did_you_mean, similar_names
+from ros_lint.cli.context import workspace_around
 from ros_lint.cli.options import BY_NAME, MOST, OPTIONS, CliOption
 from ros_lint.errors import UserError
 
@@ -45,8 +46,8 @@ class Setting(NamedTuple):
 class Settings:
     """The values of all options with their origins: ``settings["fail-on"]``, ``settings.origin("fail-on")``.
 
-    ``warnings`` are messages about settings in the configuration file that have no effect. ``file`` is the origin of values in
-    the configuration file, ``folder`` the absolute folder of the file, and ``text`` its text.
+    ``warnings`` are messages about a configuration file that is not used, and about settings that have no effect. ``file`` is the
+    origin of values in the configuration file, ``folder`` the absolute folder of the file, and ``text`` its text.
     """
 
     def __init__(
@@ -92,10 +93,10 @@ def settle(arguments: Mapping[str, Any], start: str, environment: Mapping[str, s
     options are read. In origins, the path of the file is relative to the folder ``display``.
     """
     isolated = bool(arguments.get("isolated"))
-    path = "" if isolated else str(arguments.get("config") or "") or find(start)
+    path, unused = ("", "") if isolated else (str(arguments["config"]), "") if arguments.get("config") else find(start)
     if arguments.get("config") and not os.path.isfile(path):
         raise ConfigError(f"{path}: no such configuration file")
-    from_file, warnings, text = read(path) if path else ({}, (), "")
+    from_file, warnings, text = read(path) if path else ({}, (unused,) if unused else (), "")
     shown = os.path.relpath(path, display) if path and display else path
     values: dict[str, Setting] = {}
     for option in OPTIONS:
@@ -114,19 +115,39 @@ CONFIGURATION_FILES = ("ros-lint.toml", "pyproject.toml")
 """Names of files with settings."""
 
 
-def find(start: str) -> str:
-    """Return the path of the nearest configuration file in ``start`` or above it, "" if there is none."""
+def find(start: str) -> tuple[str, str]:
+    """Return the path of the nearest configuration file in ``start`` or above it, and a warning; "" for each that does not exist.
+
+    The search ends at the workspace or repository that contains ``start``, as that of git and mypy. A file above it is not used,
+    nor is a file of another user, because anyone may write into a folder such as /tmp: the warning names it.
+    """
     folder = os.path.abspath(start)
     if not os.path.isdir(folder):
         folder = os.path.dirname(folder)
+    around = workspace_around(folder)
     for place in upwards(folder):
-        ros_lint_toml = os.path.join(place, "ros-lint.toml")
-        if os.path.isfile(ros_lint_toml):
-            return ros_lint_toml
-        pyproject = os.path.join(place, "pyproject.toml")
-        if os.path.isfile(pyproject) and _has_table(pyproject):
-            return pyproject
-    return ""
+        path = _configuration_in(place)
+        if not path:
+            continue
+        if is_below(place, around or folder) or (not around and _is_trusted(path, folder)):
+            return path, ""
+        why = f"it is above {around}" if around else "it belongs to another user"
+        return "", f"{path}: not used, because {why}; use --config to use it"
+    return "", ""
+
+
+def _configuration_in(folder: str) -> str:
+    ros_lint_toml = os.path.join(folder, "ros-lint.toml")
+    if os.path.isfile(ros_lint_toml):
+        return ros_lint_toml
+    pyproject = os.path.join(folder, "pyproject.toml")
+    return pyproject if os.path.isfile(pyproject) and _has_table(pyproject) else ""
+
+
+def _is_trusted(path: str, folder: str) -> bool:
+    """Return whether a file belongs to the current user, to the owner of the checked folder or to root."""
+    owners = {os.lstat(path).st_uid, os.stat(path).st_uid}
+    return not hasattr(os, "geteuid") or owners <= {os.geteuid(), os.stat(folder).st_uid, 0}
 
 
 def read(path: str) -> tuple[dict[str, Any], tuple[str, ...], str]:

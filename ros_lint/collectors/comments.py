@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.suffixes import HEADERS, SOURCES
 
@@ -39,11 +39,11 @@ def _finder(text: Text) -> Callable[[str], Ranges] | None:
         name = name.removesuffix(ending)
     extension = name.rpartition(".")[2] if "." in name else ""
     if name == "cmakelists.txt" or extension == "cmake":
-        return _in_cmake
+        return _CMAKE_MARKS.comments
     if extension in _XML:
-        return _in_xml
+        return _XML_MARKS.comments
     if extension in _CXX:
-        return _in_cxx
+        return _CXX_MARKS.comments
     if extension in _YAML:
         return _in_yaml
     if extension in _HASH:
@@ -67,26 +67,74 @@ def _pattern(*parts: str) -> re.Pattern[str]:
     return re.compile("|".join(parts), re.DOTALL | re.MULTILINE)
 
 
-def _in_xml(text: str) -> Ranges:
+class _Mark(NamedTuple):
+    start: str
+    """The first characters of the opening mark."""
+    closing: str
+    """The closing mark; %s stands for what it repeats of the opening mark."""
+    is_comment: bool
+    """False for a string."""
+
+
+class _Brackets(NamedTuple):
+    """Comments and strings of a language that end with a mark of their own, perhaps some lines later."""
+
+    marks: tuple[_Mark, ...]
+    opening: str
+    """Pattern of the opening marks. The group ``repeated`` is what the closing mark repeats."""
+    closing: str
+    """Pattern of the closing marks."""
+    plain: tuple[str, ...]
+    """Patterns of other comments, as the group ``comment``, and of other strings."""
+
+    def comments(self, text: str) -> Ranges:
+        """Yield the comments of a text. An opening mark that is never closed counts as other text."""
+        last = {match[1]: match.start() for match in _pattern(f"(?=({self.closing}))").finditer(text)}
+        plain = _pattern(*self.plain)
+        either = _pattern(f"(?P<opening>{self.opening})", *self.plain)
+        at = 0
+        while found := either.search(text, at):
+            start = found.start()
+            if opening := found["opening"]:
+                mark = next(mark for mark in self.marks if opening.startswith(mark.start))
+                closing = mark.closing.replace("%s", found["repeated"] or "")
+                if last.get(closing, -1) >= found.end():
+                    at = text.index(closing, found.end()) + len(closing)
+                    if mark.is_comment:
+                        yield start, at
+                    continue
+                found = plain.match(text, start)
+            at = found.end() if found else start + 1
+            if found and found["comment"] is not None:
+                yield found.span("comment")
+
+
+_QUOTED = r'"(?:\\.|[^"\\\r\n])*"?'
+"""Pattern of a string, which ends with its line if it is not closed."""
+_XML_MARKS = _Brackets(
     # "<!--" opens a comment wherever a plain "<" would be invalid, that is outside of attributes and character data.
-    return _matched(_pattern(r"<!\[CDATA\[.*?\]\]>", r"<\?.*?\?>", r"(?P<comment><!--.*?-->)"), text)
-
-
-def _in_cmake(text: str) -> Ranges:
-    comment = r"(?P<comment>\#\[(?P<mark>=*)\[.*?\](?P=mark)\]|\#[^\r\n]*)"
-    return _matched(_pattern(r'"(?:\\.|[^"\\])*"', r"\\.", comment, r"\[(?P<bracket>=*)\[.*?\](?P=bracket)\]"), text)
-
-
-def _in_cxx(text: str) -> Ranges:
-    comment = r"(?P<comment>//(?:\\\r?\n|[^\r\n])*|/\*.*?\*/)"
-    raw = r'R"(?P<mark>[^()\\\s]{0,16})\(.*?\)(?P=mark)"'
-    character = r"'(?:\\[^\r\n]{1,10}?|[^'\\\r\n])'"  # not the quotes in 1'000'000
-    return _matched(_pattern(comment, raw, r'"(?:\\.|[^"\\\r\n])*"', character), text)
+    (_Mark("<!--", "-->", True), _Mark("<?", "?>", False), _Mark("<!", "]]>", False)),
+    r"<!\[CDATA\[|<\?|<!--(?P<repeated>)",
+    r"\]\]>|\?>|-->",
+    (r"(?P<comment>(?!))",),
+)
+_CMAKE_MARKS = _Brackets(
+    (_Mark("#", "]%s]", True), _Mark("[", "]%s]", False)),
+    r"\#?\[(?P<repeated>=*)\[",
+    r"\]=*\]",
+    (r'"(?:\\.|[^"\\])*"', r"\\.", r"(?P<comment>\#[^\r\n]*)"),
+)
+_CXX_MARKS = _Brackets(
+    (_Mark("/*", "*/", True), _Mark("R", ')%s"', False)),
+    r'R"(?P<repeated>[^()\\\s"]{0,16})\(|/\*',
+    r'\*/|\)[^()\\\s"]{0,16}"',
+    # The character is not the quotes in 1'000'000.
+    (r"(?P<comment>//(?:\\\r?\n|[^\r\n])*)", _QUOTED, r"'(?:\\[^\r\n]{1,10}?|[^'\\\r\n])'"),
+)
 
 
 def _after_hash(text: str) -> Ranges:
-    quoted = r'"(?:\\.|[^"\\\r\n])*"'
-    return _matched(_pattern(quoted, r"'[^'\r\n]*'", r"(?P<comment>(?<!\S)\#[^\r\n]*)"), text)
+    return _matched(_pattern(_QUOTED, r"'[^'\r\n]*'", r"(?P<comment>(?<!\S)\#[^\r\n]*)"), text)
 
 
 def _in_cfg(text: str) -> Ranges:

@@ -86,9 +86,9 @@ def cargo(source: Text) -> FileFacts:
 def _crates(source: Text) -> Iterator[Mention]:
     text = source.text
     sections = list(_SECTION.finditer(text))
-    for section, following in zip(sections, [*sections[1:], None], strict=True):
+    ends = [*(section.start() for section in sections[1:]), len(text)]
+    for section, end in zip(sections, ends, strict=False):
         path = section[1].strip().split(".")
-        end = following.start() if following else len(text)
         if path[-1].endswith("dependencies"):
             entries = [(match.span(1), match[2]) for match in _ENTRY.finditer(text, section.end(), end)]
         elif len(path) > 1 and path[-2].endswith("dependencies"):

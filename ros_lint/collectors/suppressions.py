@@ -18,9 +18,9 @@ _HOW = "write ros-lint: ignore[rule-name] reason"
 
 _MARK = re.compile(r"ros-lint:[ \t]*(?P<word>[A-Za-z][\w-]*)?(?P<bracket>[ \t]*\[(?P<names>[^\]\r\n]*)(?P<close>\])?)?")
 _OPENING = re.compile(r"(?:<!--|#\[=*\[|#+|;|//+[!<]?|/\*+[!<]?)\s*")
-_CLOSING = re.compile(r"\s*(?:-->|\*+/|\]=*\])?\s*\Z")
-_DECLARATION = re.compile(r"<\?.*?\?>|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)
-_REASON = re.compile(r"[^\r\n]*?(?=[ \t]+(?:#|//)[ \t]|[\r\n]|\Z)")
+_CLOSING = re.compile(r"-->|\*+/|\]=*\]")
+_PROLOG = re.compile(r"[\ufeff \t\r\n\f]+|<\?.*?\?>|<!DOCTYPE[^>\[]*(?:\[.*?\]\s*)?>", re.DOTALL)
+_AFTER_REASON = re.compile(r"(?<![ \t])[ \t]+(?:#|//)[ \t]|[\r\n]|\Z")
 _SIGN = re.compile(r"[ \t]*(?:#+|//+)?[ \t]*")
 _BLANK = re.compile(r"[ \t\f]*(?:\r\n|\r|\n|\Z)")
 
@@ -52,13 +52,15 @@ def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leadin
     content = text.text
     marks = list(_MARK.finditer(content, start, end))
     for number, mark in enumerate(marks, 1):
-        opens = _OPENING.fullmatch(content, start, mark.start()) is not None
+        opens = number == 1 and _OPENING.fullmatch(content, start, mark.start()) is not None
         problem = _problem(mark, leading)
         if problem is None or (not opens and mark["word"] not in ("ignore", "ignore-file")):
             continue  # a sentence that mentions ros-lint
         stop = _reason_end(content, mark.end(), marks[number].start() if number < len(marks) else end)
-        sole = opens and len(marks) == 1 and _CLOSING.fullmatch(content, stop, end) is not None
-        cut = _cut_comment(content, start, end) if sole else _cut_mark(content, start, mark.start(), stop, end)
+        if opens and len(marks) == 1 and _closes(content[stop:end]):
+            cut = _cut_comment(content, start, end)
+        else:
+            cut = _cut_mark(content, (mark.start(), stop), (start, end), opens)
         names_range = mark.span("names") if mark["names"] is not None else (mark.end(), mark.end())
         yield Suppression(
             tuple(_names(text, *names_range)),
@@ -100,7 +102,10 @@ def _is_standalone(content: str, start: int, end: int) -> bool:
 
 def _is_prolog(between: str) -> bool:
     """Return whether the text between two comments contains only white space, XML declarations and document types."""
-    return not _DECLARATION.sub("", between).strip("\ufeff \t\r\n\f")
+    at = 0
+    while at < len(between) and (match := _PROLOG.match(between, at)):
+        at = match.end()
+    return at == len(between)
 
 
 def _reason_end(content: str, start: int, limit: int) -> int:
@@ -108,8 +113,21 @@ def _reason_end(content: str, start: int, limit: int) -> int:
 
     That is the end of its line or of its comment, or a further ``#`` or ``//``: ``# ros-lint: ignore[x] reason # noqa``.
     """
-    line = _REASON.match(content, start, limit)
-    return start + len(_CLOSING.sub("", line[0] if line else "").rstrip("#/ \t"))
+    after = _AFTER_REASON.search(content, start, limit)
+    reason = content[start : after.start() if after else limit].rstrip()
+    if reason.endswith("-->"):
+        reason = reason[:-3]
+    elif reason.endswith("*/"):
+        reason = reason[:-2].rstrip("*")
+    elif reason.endswith("]") and (brackets := reason[:-1].rstrip("=")).endswith("]"):
+        reason = brackets[:-1]
+    return start + len(reason.rstrip().rstrip("#/ \t"))
+
+
+def _closes(rest: str) -> bool:
+    """Return whether a comment contains nothing but its closing sign, if it has one, after a suppression."""
+    sign = rest.strip()
+    return not sign or _CLOSING.fullmatch(sign) is not None
 
 
 def _cut_comment(content: str, start: int, end: int) -> tuple[int, int]:
@@ -123,15 +141,18 @@ def _cut_comment(content: str, start: int, end: int) -> tuple[int, int]:
     return start, lines.end() if lines else end
 
 
-def _cut_mark(content: str, comment: int, start: int, stop: int, end: int) -> tuple[int, int]:
+def _cut_mark(content: str, mark: tuple[int, int], comment: tuple[int, int], opens: bool) -> tuple[int, int]:
     """Return the offset range to delete in order to remove a suppression and keep the rest of its comment.
 
-    The range includes one comment sign: ``# a # ros-lint: ignore[x]`` -> ``# a``, ``# ros-lint: ignore[x] # a`` -> ``# a``.
+    ``mark`` and ``comment`` are the ranges of the suppression with its reason, and of the comment that contains it; ``opens``
+    says that nothing precedes the suppression in the comment. The range includes one comment sign:
+    ``# a # ros-lint: ignore[x]`` -> ``# a``, ``# ros-lint: ignore[x] # a`` -> ``# a``.
     """
-    if _OPENING.fullmatch(content, comment, start):
-        following = _SIGN.match(content, stop, end)
+    start, stop = mark
+    if opens:
+        following = _SIGN.match(content, stop, comment[1])
         return start, following.end() if following else stop
-    while start > comment and content[start - 1] in " \t#/":
+    while start > comment[0] and content[start - 1] in " \t#/":
         start -= 1
     return start, stop
 

@@ -1,4 +1,4 @@
-"""Mutators: from the bytes of a real file to bytes that nobody would write."""
+"""Mutators: from the bytes of a real file to bytes that are not written by hand."""
 
 from __future__ import annotations
 

@@ -101,5 +101,5 @@ class Project:
         """Record that files changed on disk. ``paths`` are absolute. Raises UserError if the settings are now invalid."""
         relative = {os.path.relpath(path, self.base).replace(os.sep, "/") for path in paths}
         self._session.loader.forget(relative)
-        if find(self.folder) in paths or any(os.path.basename(path) in CONFIGURATION_FILES for path in paths):
+        if find(self.folder)[0] in paths or any(os.path.basename(path) in CONFIGURATION_FILES for path in paths):
             self.reopen()
