@@ -1,7 +1,7 @@
 """Everything that a rule may import: the types of rules, findings and facts, and modules with functions."""
 
 from ros_lint.analysis.finding import Confidence, Consequence, Finding, Fix, Related, Severity
-from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
+from ros_lint.analysis.memo import cached_by_name, cached_by_package, cached_by_workspace
 from ros_lint.analysis.rule import Rule
 from ros_lint.analysis.wording import first_related
 from ros_lint.api import build, dependencies, edits, files, graph, launch, manifests, names
@@ -98,6 +98,7 @@ __all__ = [
     "Use",
     "Workspace",
     "build",
+    "cached_by_name",
     "cached_by_package",
     "cached_by_workspace",
     "dependencies",

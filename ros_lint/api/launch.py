@@ -22,9 +22,9 @@ from ros_lint.analysis.launch.files import (
     run_launch_files,
     used_files,
 )
-from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, substitute
+from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, launch_file, substitute
 from ros_lint.analysis.launch.parameter_checks import Undeclared, WrongType, undeclared, unmatched_nodes, wrong_types
-from ros_lint.analysis.launch.parameter_files import NodeParameterFile, ParameterFiles
+from ros_lint.analysis.launch.parameter_files import NodeParameterFile, given_parameter_files
 from ros_lint.analysis.launch.remappings import UnusedRemapping, unused_remappings
 from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
 from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes, scope_leaks
@@ -47,7 +47,6 @@ __all__ = [
     "InstalledPrograms",
     "NodeParameterFile",
     "PackageLaunchFile",
-    "ParameterFiles",
     "PassedFile",
     "PlacedInclude",
     "ScopeLeaks",
@@ -62,6 +61,7 @@ __all__ = [
     "expand_defaults",
     "failing_expressions",
     "files_looked_up",
+    "given_parameter_files",
     "include_resolver",
     "include_tree",
     "includes",
@@ -70,6 +70,7 @@ __all__ = [
     "is_launch_file",
     "is_node_renaming",
     "is_plain",
+    "launch_file",
     "launch_suffix",
     "node_references",
     "nodes_started",

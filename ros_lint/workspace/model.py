@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base import gitignore
 from ros_lint.base.by_name import ByName
-from ros_lint.base.paths import join, resolve, strip_folder
+from ros_lint.base.paths import join, parent, resolve, strip_folder
 from ros_lint.base.questions import Memo, Questions
 from ros_lint.base.text import Span, file_start
 from ros_lint.collectors.manifest import conditions
@@ -293,12 +293,13 @@ class Workspace:
 
     def owner(self, path: str) -> Package | None:
         """Return the innermost package, also from ``unusable``, that contains a file; None if no package contains it."""
-        inside = [
-            package
-            for package in (*self.packages, *self.unusable)
-            if not package.path or path == package.path or path.startswith(f"{package.path}/")
-        ]
-        return max(inside, key=lambda package: len(package.path), default=None)
+        folders = self.memo.ask("folders", self._find_folders)
+        while path and path not in folders:
+            path = parent(path)
+        return folders.get(path)
+
+    def _find_folders(self) -> Mapping[str, Package]:
+        return {package.path: package for package in (*reversed(self.unusable), *reversed(self.packages))}
 
     def surely_lacks(self, owner: str, kind: ContentKind, name: str) -> bool:
         """Return whether the package ``owner`` certainly does not provide ``name``, which was not found in it.

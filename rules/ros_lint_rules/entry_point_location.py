@@ -65,7 +65,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     outside = {p.path.rpartition("/")[2] for p in script.products.installs if p.path.startswith("bin/")} - inside
     using = {package.relative(use.span.path) for use in package.uses if use.package == "rclpy"}
     modules = {module.name: module.path for module in script.python.entry_point_modules}
-    started = launch.nodes_started(workspace).get(package.name, {})
+    started = launch.nodes_started(workspace, package.name)
     nodes = [
         entry
         for entry in script.products.entry_points

@@ -25,9 +25,22 @@ Not reported:
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.api import Finding, LaunchCondition, LaunchFile, Related, Rule, Severity, Span, Workspace, launch
+from ros_lint.api import (
+    Finding,
+    LaunchAction,
+    LaunchCondition,
+    LaunchFile,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Span,
+    Workspace,
+    cached_by_name,
+    launch,
+)
 
 if TYPE_CHECKING:
     from ros_lint.api import launch
@@ -38,71 +51,83 @@ _SHORT = frozenset({"spawner", "spawner.py", "unspawner", "spawn_entity.py", "cr
 Conditions = tuple[LaunchCondition, ...]
 
 
-def check(workspace: Workspace) -> Iterator[Finding]:
-    names = _Names(workspace)
-    for package in workspace.packages:
-        for launch_file in launch.package_launch_files(package):
-            for finding in _of(launch_file.file, names, workspace):
-                yield finding._replace(package=package.name)
+def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+    for launch_file in launch.package_launch_files(package):
+        yield from _of(launch_file.file, workspace)
 
 
-def _of(file: LaunchFile, names: _Names, workspace: Workspace) -> Iterator[Finding]:
-    repeated = names.repeated(file)
+def _of(file: LaunchFile, workspace: Workspace) -> Iterator[Finding]:
+    repeated = _repeated(file, workspace)
     if repeated:
         yield from _in_file(
-            launch.expand_defaults(file, workspace, lambda inner: not repeated.isdisjoint(names.of(inner))).started
+            launch.expand_defaults(file, workspace, lambda inner: not repeated.isdisjoint(_all_names(inner, workspace))).started
         )
 
 
-class _Names:
-    """Cache of the names that nodes of each launch file may have: a cheap test before the includes of a file are evaluated."""
+class _Part(NamedTuple):
+    """A part of a launch file that starts nodes: a node with its possible names, or an include."""
 
-    def __init__(self, workspace: Workspace) -> None:
-        self._links = launch.include_resolver(workspace)
-        self._known: dict[str, frozenset[str]] = {}
+    names: frozenset[str]
+    included: str
+    """Path of the included launch file, "" for a node."""
+    conditions: Conditions
 
-    def repeated(self, file: LaunchFile) -> set[str]:
-        """Return the names that two nodes of a launch file and the files it includes may have.
 
-        Nodes that a timer or an event starts later do not count, and neither do nodes under conditions that exclude each other.
-        """
-        seen: dict[str, list[Conditions]] = {}
-        repeated: set[str] = set()
-        for names, conditions in self._parts(file, (), ()):
-            for name in names - repeated:
-                earlier = seen.setdefault(name, [])
-                if any(launch.are_consistent((*conditions, *others)) for others in earlier):
-                    repeated.add(name)
-                earlier.append(conditions)
-        return repeated
+def _repeated(file: LaunchFile, workspace: Workspace) -> set[str]:
+    """Return the names that two nodes of a launch file and the files it includes may have.
 
-    def of(self, file: LaunchFile) -> frozenset[str]:
-        """Return the possible names of all nodes in a launch file and the files it includes."""
-        return self._all(file, ())
+    This is a cheap test before the includes of the file are evaluated. Nodes that a timer or an event starts later do not count,
+    and neither do nodes under conditions that exclude each other.
+    """
+    seen: dict[str, list[Conditions]] = {}
+    repeated: set[str] = set()
+    for part in _parts(workspace, file.path):
+        names = _names_below(workspace, part.included) if part.included else part.names
+        for name in names - repeated:
+            earlier = seen.setdefault(name, [])
+            if any(launch.are_consistent((*part.conditions, *others)) for others in earlier):
+                repeated.add(name)
+            earlier.append(part.conditions)
+    return repeated
 
-    def _parts(
-        self, file: LaunchFile, above: tuple[str, ...], conditions: Conditions
-    ) -> Iterator[tuple[frozenset[str], Conditions]]:
-        defaults = launch.assigned_configurations(file)
-        waiting = [(action, conditions) for action in file.actions]
-        while waiting:
-            action, outer = waiting.pop()
-            inner = (*outer, *action.conditions)
-            if action.kind in ("node", "component"):
-                yield frozenset(launch.substitute(action.name, defaults)), inner
-            elif action.kind == "include":
-                target = self._links.target(action.target, file)
-                if target is not None and target.file.path not in above:
-                    yield self._all(target.file, (*above, file.path)), inner
-            if action.kind != "later":
-                waiting += [(child, inner) for child in action.children]
 
-    def _all(self, file: LaunchFile, above: tuple[str, ...]) -> frozenset[str]:
-        known = self._known.get(file.path)
-        if known is None:
-            known = frozenset().union(*(names for names, _ in self._parts(file, above, ())))
-            self._known[file.path] = known
-        return known
+def _all_names(file: LaunchFile, workspace: Workspace) -> frozenset[str]:
+    """Return the possible names of all nodes in a launch file and the files it includes."""
+    return _names_below(workspace, file.path)
+
+
+@cached_by_name
+def _parts(workspace: Workspace, path: str) -> tuple[_Part, ...]:
+    file, links = launch.launch_file(workspace, path), launch.include_resolver(workspace)
+    result: list[_Part] = []
+    defaults = launch.assigned_configurations(file) if file is not None else {}
+    waiting: list[tuple[LaunchAction, Conditions]] = [(action, ()) for action in file.actions] if file is not None else []
+    while waiting and file is not None:
+        action, outer = waiting.pop()
+        inner = (*outer, *action.conditions)
+        if action.kind in ("node", "component"):
+            result.append(_Part(frozenset(launch.substitute(action.name, defaults)), "", inner))
+        elif action.kind == "include":
+            target = links.target(action.target, file)
+            if target is not None and target.file.path != path:
+                result.append(_Part(frozenset(), target.file.path, inner))
+        if action.kind != "later":
+            waiting += [(child, inner) for child in action.children]
+    return tuple(result)
+
+
+@cached_by_name
+def _names_below(workspace: Workspace, path: str) -> frozenset[str]:
+    """Return the possible names of all nodes in the launch file at ``path`` and the files it includes."""
+    seen, waiting = {path}, [path]
+    names: set[str] = set()
+    while waiting:
+        for part in _parts(workspace, waiting.pop()):
+            names |= part.names
+            if part.included and part.included not in seen:
+                seen.add(part.included)
+                waiting.append(part.included)
+    return frozenset(names)
 
 
 def _in_file(everything: Sequence[launch.Started]) -> Iterator[Finding]:
@@ -165,5 +190,5 @@ RULE = Rule(
     severity=Severity.WARNING,
     since="0.1",
     doc=__doc__,
-    workspace=check,
+    package=check,
 )

@@ -63,6 +63,7 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    cached_by_package,
     files,
     first_related,
     launch,
@@ -77,11 +78,14 @@ _MODELS = (".urdf", ".xacro", ".srdf", ".sdf", ".world", ".rviz", ".yaml", ".yml
 
 def check(workspace: Workspace) -> Iterator[Finding]:
     for package in workspace.packages:
-        for finding in _named(package, workspace):
-            yield finding._replace(package=package.name)
-        for finding in _modelled(package, workspace):
-            yield finding._replace(package=package.name)
+        yield from _of_package(package, workspace)
     yield from _passed(workspace)
+
+
+@cached_by_package
+def _of_package(package: Package, workspace: Workspace) -> tuple[Finding, ...]:
+    found = (*_named(package, workspace), *_modelled(package, workspace))
+    return tuple([finding._replace(package=package.name) for finding in found])
 
 
 def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -93,7 +97,7 @@ def _modelled(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     share = f"share/{package.name}/"
     installed = {p.source: p.path.removeprefix(share) for p in package.built.products.installs if p.source and not p.conditional}
-    used = {look_up.path for look_up in launch.files_looked_up(workspace).get(package.name, ())}
+    used = {look_up.path for look_up in launch.files_looked_up(workspace, package.name)}
     look_ups: dict[tuple[str, str], list[tuple[bool, Span]]] = {}
     for look_up in package.lookups:
         file, path = package.relative(look_up.span.path), look_up.path.lstrip("/")
@@ -250,7 +254,7 @@ class _Missing:
     def _is_missing(self, file: launch.PassedFile) -> bool:
         if file.kind != "include" and not file.path.endswith(_WRITTEN):
             return False
-        if any(look_up.path == file.path for look_up in launch.files_looked_up(self._workspace).get(file.package, ())):
+        if any(look_up.path == file.path for look_up in launch.files_looked_up(self._workspace, file.package)):
             return False
         return _files_without(file.package, file.path, file.kind, self._workspace) is not None
 
@@ -294,7 +298,7 @@ def _folder_and_suffix(path: str) -> tuple[str, str]:
 
 def _is_left_over(file: str, owner: str, all_names: tuple[str, ...], workspace: Workspace) -> bool:
     """Return whether nothing looks up ``file`` of package ``owner``, but other files with its folder and suffix are looked up."""
-    wanted = {look_up.path for look_up in launch.files_looked_up(workspace).get(owner, ())}
+    wanted = {look_up.path for look_up in launch.files_looked_up(workspace, owner)}
     return file not in wanted and any(
         _folder_and_suffix(other) == _folder_and_suffix(file) for other in wanted.intersection(all_names)
     )

@@ -49,7 +49,6 @@ from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, 
 
 
 def check(workspace: Workspace) -> Iterator[Finding]:
-    files = launch.ParameterFiles(workspace)
     unmatched: list[tuple[Package, list[launch.NodeParameterFile]]] = []
     used: set[str] = set()
     unchanged: dict[str, list[launch.NodeParameterFile]] = {}
@@ -58,7 +57,7 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         for launch_file in launch.package_launch_files(package):
             rewrites = any(_rewrites(name) for name, _ in launch_file.file.imports)
             by_file: dict[str, list[launch.NodeParameterFile]] = {}
-            for passed in files.given(launch_file.file):
+            for passed in launch.given_parameter_files(launch_file.file, workspace):
                 by_file.setdefault(passed.file.path, []).append(passed)
             for path, uses in by_file.items():
                 all_uses.setdefault(path, []).extend(uses)

@@ -73,7 +73,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     if script is None or package.builds_with not in ("ament_cmake", "ament_python"):
         return
     files = {file.path: file for file in script.files.scripts}
-    started = launch.nodes_started(workspace).get(package.name, {})
+    started = launch.nodes_started(workspace, package.name)
     runs = {provided.path for provided in script.products.installs if provided.program}
     any_executable = any(
         provided.program and provided.source in files and files[provided.source].executable

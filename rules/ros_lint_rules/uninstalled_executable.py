@@ -96,7 +96,7 @@ def _problems(package: Package, script: BuildScript, workspace: Workspace) -> It
     nodes = build.node_targets(package)
     forgotten = build.never_installed_nodes(package)
     left_out = build.partly_installed_nodes(package)
-    by_launch_files = launch.nodes_started(workspace).get(package.name, {})
+    by_launch_files = launch.nodes_started(workspace, package.name)
     for target in build.programs_built(script):
         installed = places.get(target.name, [])
         if not all(_is_outside_packages(folder) for folder, _, _ in installed):

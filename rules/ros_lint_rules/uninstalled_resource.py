@@ -101,7 +101,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     looked_into: dict[str, Span] = {}
     file_paths = frozenset(package.files)
     folders = frozenset(file.partition("/")[0] for file in package.files if _is_resource(file))
-    for look_up in launch.files_looked_up(workspace).get(package.name, ()):
+    for look_up in launch.files_looked_up(workspace, package.name):
         path, span = look_up.path.rstrip("/"), look_up.span
         place = f"share/{package.name}/{path}"
         if place in installed or path.endswith(launch.LAUNCH_FILE_NAMES):

@@ -49,7 +49,7 @@ The confidence is high for:
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from ros_lint.api import (
     Confidence,
@@ -60,6 +60,7 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    cached_by_workspace,
     dependencies,
     launch,
     names,
@@ -204,8 +205,19 @@ def _unknown(
 
 def _in_folder(name: str, workspace: Workspace) -> str:
     """Return the only package of the workspace whose folder is called ``name``, "" if there is none or several."""
-    all_names = {package.name for package in workspace.packages if package.path.rpartition("/")[2] == name}
-    return all_names.pop() if len(all_names) == 1 else ""
+    all_names = _by_folder(workspace).get(name, ())
+    return all_names[0] if len(all_names) == 1 else ""
+
+
+@cached_by_workspace
+def _by_folder(workspace: Workspace) -> Mapping[str, tuple[str, ...]]:
+    """Return the names of the packages by the name of their folder."""
+    result: dict[str, tuple[str, ...]] = {}
+    for package in workspace.packages:
+        folder = package.path.rpartition("/")[2]
+        if package.name not in result.get(folder, ()):
+            result[folder] = (*result.get(folder, ()), package.name)
+    return result
 
 
 def _of_folder(unresolved: dependencies.UnresolvedDependency, workspace: Workspace, what: str, meant: str) -> Finding:

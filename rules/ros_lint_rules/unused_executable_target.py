@@ -42,7 +42,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     excluded |= build.never_installed_nodes(package) | build.partly_installed_nodes(
         package
     )  # uninstalled-executable reports them
-    excluded.update(launch.nodes_started(workspace).get(package.name, {}))
+    excluded.update(launch.nodes_started(workspace, package.name))
     for target in script.products.targets:
         if target.kind != "executable" or target.test or target.name in excluded:
             continue

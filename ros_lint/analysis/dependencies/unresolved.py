@@ -123,7 +123,7 @@ def undeclared_match(dependency: UnresolvedDependency, workspace: Workspace) -> 
     ``talk_robot``), the build script must not contain the unresolved name. Otherwise no file except package.xml may contain it.
     """
     package, name = dependency.package, dependency.name
-    near = [use.package for use in package.uses if _is_same(use.package, name)]
+    near = [used for used in dict.fromkeys(use.package for use in package.uses) if _is_same(used, name)]
     near += workspace.world.suggest(name, python=dependency.runs_python)
     undeclared = [undeclared_name for undeclared_name in dict.fromkeys(near) if _is_lacking(package, undeclared_name)]
     same = [undeclared_name for undeclared_name in undeclared if _is_same(undeclared_name, name)]

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import IncludeResolver, configurations_read, include_resolver
-from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.analysis.launch.includes import configurations_read, include_resolver, launch_file
+from ros_lint.analysis.memo import cached_by_name, cached_by_workspace
 from ros_lint.base.text import Span
 from ros_lint.collectors.symbolic_text import configurations, is_plain
 from ros_lint.facts.launch import LaunchFile, values_of_action, walk_actions
@@ -70,25 +70,79 @@ def read_sites(file: LaunchFile, names: frozenset[str]) -> dict[tuple[str, bool]
     return result
 
 
+@cached_by_name
+def _names(workspace: Workspace, path: str) -> FileConfigurations | None:
+    file = launch_file(workspace, path)
+    return names_of(file) if file is not None else None
+
+
+class _Includes(NamedTuple):
+    """The include relation between the launch files of a workspace, by path."""
+
+    includers: Mapping[str, frozenset[str]]
+    included: Mapping[str, frozenset[str]]
+
+
+@cached_by_workspace
+def _relation(workspace: Workspace) -> _Includes:
+    links = include_resolver(workspace)
+    includers: dict[str, set[str]] = {}
+    included: dict[str, frozenset[str]] = {}
+    for package in workspace.packages:
+        for file in package.launch:
+            if inner := frozenset([target.path for target in links.includes(file)]):
+                included[file.path] = inner
+                for path in inner:
+                    includers.setdefault(path, set()).add(file.path)
+    return _Includes({path: frozenset(paths) for path, paths in includers.items()}, included)
+
+
+@cached_by_workspace
+def _all_set_or_passed(workspace: Workspace) -> frozenset[str]:
+    return frozenset(name for names in _of_all(workspace) for name in names.set_or_passed)
+
+
+@cached_by_workspace
+def _filling(workspace: Workspace) -> frozenset[str]:
+    """Return the paths of the launch files that may read any configuration."""
+    paths = [file.path for package in workspace.packages for file in package.launch]
+    return frozenset([path for path in paths if (names := _names(workspace, path)) is not None and names.may_read_any])
+
+
+def _of_all(workspace: Workspace) -> Iterator[FileConfigurations]:
+    for package in workspace.packages:
+        for file in package.launch:
+            if (names := _names(workspace, file.path)) is not None:
+                yield names
+
+
+@cached_by_name
+def _fills(workspace: Workspace, path: str) -> bool:
+    if not _filling(workspace):
+        return False
+    includers, included = _relation(workspace)
+    return not ({path} | _reached(includers, path) | _reached(included, path)).isdisjoint(_filling(workspace))
+
+
+@cached_by_name
+def _above(workspace: Workspace, path: str) -> tuple[str, ...]:
+    return tuple(sorted(_reached(_relation(workspace).includers, path)))
+
+
 class IncludeTree:
     """The include relation between the launch files of a workspace: the files that each launch file includes."""
 
-    def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
-        self._names = {file.path: names_of(file) for file in files}
-        self._includers: dict[str, set[str]] = {}
-        self._included: dict[str, set[str]] = {}
-        self.set_or_passed = frozenset().union(*(names.set_or_passed for names in self._names.values()))
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
+
+    @property
+    def set_or_passed(self) -> frozenset[str]:
         """Configurations that any launch file sets, or passes to another launch file."""
-        self._filling = {path for path, names in self._names.items() if names.may_read_any}
-        self._filled: dict[str, bool] = {}
-        for file in files:
-            for inner in links.includes(file):
-                self._includers.setdefault(inner.path, set()).add(file.path)
-                self._included.setdefault(file.path, set()).add(inner.path)
+        return _all_set_or_passed(self._workspace)
 
     def names(self, file: LaunchFile) -> FileConfigurations:
         """Return the configurations of a launch file itself, not of its included files."""
-        return self._names[file.path]
+        return _names(self._workspace, file.path) or names_of(file)
 
     def fill(self, file: LaunchFile) -> bool:
         """Return whether ``file``, or a launch file above or below it in the tree of includes, may read any configuration.
@@ -96,32 +150,30 @@ class IncludeTree:
         This is the case for a launch file that substitutes configurations in a parameter file: users can replace the
         parameter file by one with further configurations.
         """
-        if not self._filling:
-            return False
-        path = file.path
-        if path not in self._filled:
-            related = {path} | _reached(self._includers, path) | _reached(self._included, path)
-            self._filled[path] = not related.isdisjoint(self._filling)
-        return self._filled[path]
+        return _fills(self._workspace, file.path)
 
     def above(self, file: LaunchFile) -> list[FileConfigurations]:
         """Return the configurations of every file that includes ``file``, directly or indirectly."""
-        return [self._names[path] for path in sorted(_reached(self._includers, file.path))]
+        found = [_names(self._workspace, path) for path in _above(self._workspace, file.path)]
+        return [names for names in found if names is not None]
+
+    def includers(self, path: str) -> frozenset[str]:
+        """Return the paths of the launch files that certainly include the launch file at ``path``."""
+        return _relation(self._workspace).includers.get(path, frozenset())
 
 
 @cached_by_workspace
 def include_tree(workspace: Workspace) -> IncludeTree:
     """Return the include relation between the launch files of a workspace."""
-    files = [file for package in workspace.packages for file in package.launch]
-    return IncludeTree(files, include_resolver(workspace))
+    return IncludeTree(workspace)
 
 
-def _reached(edges: Mapping[str, set[str]], start: str) -> set[str]:
+def _reached(edges: Mapping[str, frozenset[str]], start: str) -> set[str]:
     """Return the paths that can be reached over ``edges`` from the path ``start``, without ``start`` itself."""
     seen = {start}
     waiting = [start]
     while waiting:
-        new = edges.get(waiting.pop(), set()) - seen
+        new = edges.get(waiting.pop(), frozenset()) - seen
         seen |= new
         waiting += new
     return seen - {start}

@@ -8,7 +8,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.analysis.finding import Fix
-from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.analysis.memo import cached_by_name, cached_by_workspace
 from ros_lint.base.auxiliary_files import TEST_FOLDERS, in_auxiliary_folder, is_auxiliary, is_backup_copy
 from ros_lint.base.edit import Edit
 from ros_lint.base.paths import folders_of, strip_folder
@@ -192,15 +192,25 @@ def is_excluded_from_install(package: Package, path: str) -> bool:
     )
 
 
+@cached_by_name
+def nodes_started(workspace: Workspace, package: str) -> Mapping[str, Sequence[LaunchReference]]:
+    """Return the places where launch files start the executables of ``package``, by executable. See `node_references`."""
+    return _all_nodes(workspace).get(package, {})
+
+
 @cached_by_workspace
-def nodes_started(workspace: Workspace) -> Mapping[str, Mapping[str, Sequence[LaunchReference]]]:
-    """Return the places where launch files start executables: package -> executable -> references. See `node_references`."""
+def _all_nodes(workspace: Workspace) -> Mapping[str, Mapping[str, Sequence[LaunchReference]]]:
     return node_references(workspace.packages)
 
 
+@cached_by_name
+def files_looked_up(workspace: Workspace, package: str) -> Sequence[LookUp]:
+    """Return the files that launch files and source files look up in the share directory of ``package``."""
+    return _all_look_ups(workspace).get(package, ())
+
+
 @cached_by_workspace
-def files_looked_up(workspace: Workspace) -> Mapping[str, Sequence[LookUp]]:
-    """Return the files that launch files and source files look up in share directories, by the package of the directory."""
+def _all_look_ups(workspace: Workspace) -> Mapping[str, Sequence[LookUp]]:
     return looked_up(workspace.packages)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeVar
 
-from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.analysis.memo import cached_by_name, cached_by_package, cached_by_workspace
 from ros_lint.base.paths import parent, resolve, strip_folder
 from ros_lint.base.text import Span
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, fill, installed_place, is_plain, is_settled, named_in
@@ -42,9 +42,19 @@ class _Own(NamedTuple):
     """The configurations of one launch file, without those of its included files, and the files that it includes."""
 
     required: Mapping[str, Span]
-    known: set[str]
+    known: frozenset[str]
     complete: bool
-    includes: list[LaunchFile]
+    includes: tuple[str, ...]
+    """The paths of the launch files of the workspace that the file certainly includes."""
+
+
+class _Places(NamedTuple):
+    """The places below share/<package> to which a package installs its launch files."""
+
+    sources: Mapping[str, tuple[str, ...]]
+    """The paths of the launch files by install path. Several files, or one file twice, may be installed to one path."""
+    installed: Mapping[str, str]
+    """The first install path of each launch file, by its path."""
 
 
 def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[tuple[File, str]]:
@@ -57,30 +67,79 @@ def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[t
             yield file, provided.path[len(share) :]
 
 
+@cached_by_workspace
+def _owners(workspace: Workspace) -> Mapping[str, Package]:
+    """Return the packages that contain the launch files, by path of the launch file."""
+    return {file.path: package for package in workspace.packages for file in package.launch}
+
+
+@cached_by_package
+def _launch_files(package: Package, _: Workspace) -> Mapping[str, LaunchFile]:
+    return {file.path: file for file in package.launch}
+
+
+@cached_by_package
+def _places(package: Package, _: Workspace) -> _Places:
+    sources: dict[str, tuple[str, ...]] = {}
+    installed: dict[str, str] = {}
+    for file, path in installed_below_share(package, package.launch):
+        sources[path] = (*sources.get(path, ()), file.path)
+        installed.setdefault(file.path, path)
+    return _Places(sources, installed)
+
+
+@cached_by_name
+def launch_file(workspace: Workspace, path: str) -> LaunchFile | None:
+    """Return the launch file of a package at ``path``, None if there is none. A question reads only this file."""
+    owner = _owners(workspace).get(path)
+    return _launch_files(owner, workspace).get(path) if owner is not None else None
+
+
+@cached_by_name
+def _sets(workspace: Workspace, path: str) -> Mapping[str, tuple[str, ...]]:
+    """Return what :func:`_set_in` returns for the launch file at ``path``."""
+    file = launch_file(workspace, path)
+    return _set_in(file) if file is not None else {}
+
+
+@cached_by_name
+def _owns(workspace: Workspace, path: str) -> _Own | None:
+    """Return the own configurations of the launch file at ``path``, None if there is none."""
+    file = launch_file(workspace, path)
+    return include_resolver(workspace).own(file) if file is not None else None
+
+
+@cached_by_name
+def _takes(workspace: Workspace, path: str) -> AcceptedArguments | None:
+    """Return the configurations that the launch file at ``path`` and its included files accept, None if there is no such file."""
+    own = _owns(workspace, path)
+    return _with_included(workspace, path, own) if own is not None else None
+
+
+def _with_included(workspace: Workspace, path: str, own: _Own) -> AcceptedArguments:
+    known, complete = set(own.known), own.complete
+    seen = {path}
+    waiting = list(own.includes)
+    while waiting:
+        inner = waiting.pop()
+        own_of_inner = _owns(workspace, inner) if inner not in seen else None
+        if own_of_inner is not None:
+            seen.add(inner)
+            known |= own_of_inner.known
+            complete = complete and own_of_inner.complete
+            waiting += own_of_inner.includes
+    return AcceptedArguments(own.required, frozenset(known), complete)
+
+
 class IncludeResolver:
-    """Resolves includes to the launch files of a workspace by their install paths."""
+    """Resolves includes to the launch files of a workspace by their install paths.
 
-    def __init__(self, packages: Iterable[Package]) -> None:
-        self._by_path: dict[tuple[str, str], list[InstalledLaunchFile]] = {}
-        self._places: dict[str, InstalledLaunchFile] = {}
-        self._takes: dict[str, AcceptedArguments] = {}
-        self._owns: dict[str, _Own] = {}
-        self._sets: dict[str, Mapping[str, tuple[str, ...]]] = {}
-        self._launch: list[tuple[LaunchFile, ...]] = []
-        for package in packages:
-            self._launch.append(package.launch)
-            for file, path in installed_below_share(package, package.launch):
-                linked = InstalledLaunchFile(package, file, path)
-                self._by_path.setdefault((package.name, path), []).append(linked)
-                self._places.setdefault(file.path, linked)
+    The answers about one launch file depend only on this file and the files that it includes, so that they remain valid if
+    another file changes.
+    """
 
-    def __eq__(self, other: object) -> bool:
-        """Return whether both resolvers have equal launch files at equal places, and so give the same answers."""
-        if not isinstance(other, IncludeResolver):
-            return False
-        return (self._launch, self._by_path, self._places) == (other._launch, other._by_path, other._places)
-
-    __hash__ = None  # type: ignore[assignment]
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
 
     def target(self, value: LaunchValue | None, source: LaunchFile) -> InstalledLaunchFile | None:
         """Return the launch file of the workspace to which an include in ``source`` refers.
@@ -88,27 +147,16 @@ class IncludeResolver:
         ``value`` is the path in the include. The result is None if the path is unknown, or if not exactly one launch file of the
         workspace is installed there.
         """
-        texts = (
-            () if value is None else value.texts if all(map(is_settled, value.texts)) else substitute(value, self._set_in(source))
-        )
+        if value is None:
+            return None
+        texts = value.texts
+        if not all(map(is_settled, texts)):
+            of_workspace = self._is_of_workspace(source)
+            texts = substitute(value, _sets(self._workspace, source.path) if of_workspace else _set_in(source))
         if len(texts) != 1:
             return None
         place = self.installed_at(texts[0], source)
-        candidates = self._by_path.get(place, []) if place is not None else []
-        return candidates[0] if len(candidates) == 1 else None
-
-    def _set_in(self, file: LaunchFile) -> Mapping[str, tuple[str, ...]]:
-        """Return the values of the launch configurations that a file sets.
-
-        Launch arguments of the file are left out, because callers can change them.
-        """
-        done = self._sets.get(file.path)
-        if done is None:
-            targets = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
-            arguments = {name for target in targets for name in target.texts}
-            done = {name: texts for name, texts in assigned_configurations(file).items() if name not in arguments}
-            self._sets[file.path] = done
-        return done
+        return self._only_file(*place) if place is not None else None
 
     def installed_at(self, text: str, source: LaunchFile) -> tuple[str, str] | None:
         """Return the installed file to which the path ``text`` in the launch file ``source`` leads.
@@ -119,7 +167,7 @@ class IncludeResolver:
         if not is_settled(text):
             return None
         if text.startswith(f"{OWN_FOLDER}/"):
-            installed = self._places.get(source.path)
+            installed = self.place(source)
             if installed is None:
                 return None
             return installed.package.name, resolve(parent(installed.path), text[len(OWN_FOLDER) + 1 :])
@@ -128,45 +176,32 @@ class IncludeResolver:
 
     def place(self, file: LaunchFile) -> InstalledLaunchFile | None:
         """Return a launch file with its install path, or None if it is not installed."""
-        return self._places.get(file.path)
+        owner = _owners(self._workspace).get(file.path)
+        path = _places(owner, self._workspace).installed.get(file.path) if owner is not None else None
+        return InstalledLaunchFile(owner, file, path) if owner is not None and path is not None else None
 
     def included(self, path: str) -> LaunchFile | None:
         """Return the launch file of the workspace that is installed at ``path``; None if there are none or several."""
         place = installed_place(path)
-        candidates = self._by_path.get((place.package, place.share or ""), []) if place is not None else []
-        return candidates[0].file if len(candidates) == 1 else None
+        found = self._only_file(place.package, place.share or "") if place is not None else None
+        return found.file if found is not None else None
 
     def includes(self, file: LaunchFile) -> list[LaunchFile]:
         """Return the launch files of the workspace that a file certainly includes."""
-        return self._own(file).includes
+        own = _owns(self._workspace, file.path) if self._is_of_workspace(file) else None
+        paths = (own or self.own(file)).includes
+        return [inner for path in paths if (inner := launch_file(self._workspace, path)) is not None]
 
     def takes(self, file: LaunchFile) -> AcceptedArguments:
         """Return the launch configurations that a file and its included files accept."""
-        done = self._takes.get(file.path)
-        if done is not None:
-            return done
-        record = self._own(file)
-        known, complete = set(record.known), record.complete
-        seen = {file.path}
-        waiting = list(record.includes)
-        while waiting:
-            inner = waiting.pop()
-            if inner.path not in seen:
-                seen.add(inner.path)
-                own_of_inner = self._own(inner)
-                known |= own_of_inner.known
-                complete = complete and own_of_inner.complete
-                waiting += own_of_inner.includes
-        takes = self._takes[file.path] = AcceptedArguments(record.required, frozenset(known), complete)
-        return takes
+        done = _takes(self._workspace, file.path) if self._is_of_workspace(file) else None
+        return done or _with_included(self._workspace, file.path, self.own(file))
 
-    def _own(self, file: LaunchFile) -> _Own:
-        done = self._owns.get(file.path)
-        if done is not None:
-            return done
+    def own(self, file: LaunchFile) -> _Own:
+        """Return the configurations of a file without those of its included files. For use by this module."""
         known = configurations_read(file)
         complete = _is_read_completely(file) and all(map(is_plain, known))
-        includes: list[LaunchFile] = []
+        includes: list[str] = []
         for action in walk_actions(file.actions):
             if action.kind in ("argument", "set") and action.target is not None:
                 known.update(action.target.texts)
@@ -174,9 +209,33 @@ class IncludeResolver:
             if action.kind == "include":
                 inner = self.target(action.target, file)
                 complete = complete and inner is not None
-                includes += [inner.file] if inner is not None else []
-        record = self._owns[file.path] = _Own(dict(_required(file.actions)), known, complete, includes)
-        return record
+                includes += [inner.file.path] if inner is not None else []
+        return _Own(dict(_required(file.actions)), frozenset(known), complete, tuple(includes))
+
+    def _only_file(self, package: str, path: str) -> InstalledLaunchFile | None:
+        """Return the launch file that is installed to a path below share/<package>; None if there are none or several."""
+        named = self._workspace.by_name.get(package, ())
+        found = [(owner, source) for owner in named for source in _places(owner, self._workspace).sources.get(path, ())]
+        if len(found) != 1:
+            return None
+        owner, source = found[0]
+        file = launch_file(self._workspace, source)
+        return InstalledLaunchFile(owner, file, path) if file is not None else None
+
+    def _is_of_workspace(self, file: LaunchFile) -> bool:
+        """Return whether a file is the launch file that the workspace has at its path, and not one that was read by a command."""
+        known = launch_file(self._workspace, file.path)
+        return known is file or known == file
+
+
+def _set_in(file: LaunchFile) -> Mapping[str, tuple[str, ...]]:
+    """Return the values of the launch configurations that a file sets.
+
+    Launch arguments of the file are left out, because callers can change them.
+    """
+    targets = [action.target for action in walk_actions(file.actions) if action.kind == "argument" and action.target]
+    arguments = {name for target in targets for name in target.texts}
+    return {name: texts for name, texts in assigned_configurations(file).items() if name not in arguments}
 
 
 _OF_VALUES = ACCEPTED_PROBLEMS | {"no-condition", "no-text", "removed-keyword", "substitution-refused", "text-divided"}
@@ -243,4 +302,4 @@ def _required(actions: Iterable[LaunchAction]) -> Iterator[tuple[str, Span]]:
 @cached_by_workspace
 def include_resolver(workspace: Workspace) -> IncludeResolver:
     """Return the resolver of includes for a workspace."""
-    return IncludeResolver(workspace.packages)
+    return IncludeResolver(workspace)

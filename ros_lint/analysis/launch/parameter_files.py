@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from posixpath import normpath
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver, installed_below_share, substitute
-from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.analysis.launch.includes import (
+    assigned_configurations,
+    include_resolver,
+    installed_below_share,
+    launch_file,
+    substitute,
+)
+from ros_lint.analysis.memo import cached_by_name, cached_by_package, cached_by_workspace
 from ros_lint.collectors.symbolic_text import installed_place
 from ros_lint.facts.launch import walk_actions
 
 if TYPE_CHECKING:
     from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
     from ros_lint.facts.sources import ParameterFile
-    from ros_lint.workspace.model import Workspace
+    from ros_lint.workspace.model import Package, Workspace
 
 
 class NodeParameterFile(NamedTuple):
@@ -32,29 +38,53 @@ class NodeParameterFile(NamedTuple):
     """The possible namespaces that the action itself sets; ("",) if it sets none."""
 
 
+@cached_by_workspace
+def _owners(workspace: Workspace) -> Mapping[str, Package]:
+    """Return the packages that contain the parameter files, by path of the file."""
+    return {file.path: package for package in workspace.packages for file in package.parameter_files}
+
+
+@cached_by_package
+def _by_path(package: Package, _: Workspace) -> Mapping[str, ParameterFile]:
+    return {file.path: file for file in package.parameter_files}
+
+
+@cached_by_package
+def _installed(package: Package, _: Workspace) -> Mapping[str, frozenset[str]]:
+    """Return the paths of the parameter files of a package, by the path below share/<package> to which they are installed."""
+    result: dict[str, frozenset[str]] = {}
+    for file, path in installed_below_share(package, package.parameter_files):
+        result[path] = result.get(path, frozenset()) | {file.path}
+    return result
+
+
+@cached_by_name
+def _parameter_file(workspace: Workspace, path: str) -> ParameterFile | None:
+    owner = _owners(workspace).get(path)
+    return _by_path(owner, workspace).get(path) if owner is not None else None
+
+
 class ParameterContents:
     """Finds the parameter files of the workspace by the paths in launch files."""
 
     def __init__(self, workspace: Workspace) -> None:
-        self._by_source: dict[str, ParameterFile] = {}
-        self._by_place: dict[tuple[str, str], ParameterFile | None] = {}
-        for package in workspace.packages:
-            self._by_source.update({file.path: file for file in package.parameter_files})
-            for file, path in installed_below_share(package, package.parameter_files):
-                key = (package.name, path)
-                # If two files are installed to one path, it is unknown which of them is used.
-                self._by_place[key] = None if self._by_place.get(key, file) is not file else file
+        self._workspace = workspace
 
     def __call__(self, path: str) -> ParameterFile | None:
         """Return the parameter file at a path in an install space or relative to the base folder; None if it is not known."""
         place = installed_place(path)
         if place is None:
-            return self._by_source.get(normpath(path))
+            return _parameter_file(self._workspace, normpath(path))
         return self.installed(place.package, place.share or "")
 
     def installed(self, package: str, path: str) -> ParameterFile | None:
-        """Return the parameter file at a path below the share folder of a package; None if it is not known."""
-        return self._by_place.get((package, path))
+        """Return the parameter file at a path below the share folder of a package; None if it is not known.
+
+        If two files are installed to one path, it is unknown which of them is used.
+        """
+        named = self._workspace.by_name.get(package, ())
+        found = {source for owner in named for source in _installed(owner, self._workspace).get(path, ())}
+        return _parameter_file(self._workspace, found.pop()) if len(found) == 1 else None
 
 
 @cached_by_workspace
@@ -63,28 +93,29 @@ def parameter_contents(workspace: Workspace) -> ParameterContents:
     return ParameterContents(workspace)
 
 
-class ParameterFiles:
-    """Finds the parameter files of the workspace that launch files pass to nodes."""
+def given_parameter_files(file: LaunchFile, workspace: Workspace) -> tuple[NodeParameterFile, ...]:
+    """Return the parameter files of the workspace that a launch file of the workspace passes to nodes.
 
-    def __init__(self, workspace: Workspace) -> None:
-        self._links = include_resolver(workspace)
-        self._contents = parameter_contents(workspace)
+    Parameter files with an unknown path are left out.
+    """
+    return _given(workspace, file.path)
 
-    def given(self, file: LaunchFile) -> Iterator[NodeParameterFile]:
-        """Yield the parameter files of the workspace that a launch file passes to nodes.
 
-        Parameter files with an unknown path are left out.
-        """
-        defaults: Mapping[str, tuple[str, ...]] | None = None
-        for action in walk_actions(file.actions):
-            for name, value in action.parameters if action.kind in ("node", "component") else ():
-                if name:
-                    continue
-                if defaults is None:
-                    defaults = assigned_configurations(file)
-                texts = substitute(value, defaults)
-                place = self._links.installed_at(texts[0], file) if len(texts) == 1 else None
-                parameters = self._contents.installed(*place) if place is not None else None
-                if parameters is not None:
-                    names, namespaces = substitute(action.name, defaults), substitute(action.namespace, defaults)
-                    yield NodeParameterFile(action, value, parameters, names, namespaces or ("",))
+@cached_by_name
+def _given(workspace: Workspace, path: str) -> tuple[NodeParameterFile, ...]:
+    file, links, contents = launch_file(workspace, path), include_resolver(workspace), parameter_contents(workspace)
+    defaults: Mapping[str, tuple[str, ...]] | None = None
+    result: list[NodeParameterFile] = []
+    for action in walk_actions(file.actions) if file is not None else ():
+        for name, value in action.parameters if action.kind in ("node", "component") else ():
+            if name or file is None:
+                continue
+            if defaults is None:
+                defaults = assigned_configurations(file)
+            texts = substitute(value, defaults)
+            place = links.installed_at(texts[0], file) if len(texts) == 1 else None
+            parameters = contents.installed(*place) if place is not None else None
+            if parameters is not None:
+                names, namespaces = substitute(action.name, defaults), substitute(action.namespace, defaults)
+                result.append(NodeParameterFile(action, value, parameters, names, namespaces or ("",)))
+    return tuple(result)

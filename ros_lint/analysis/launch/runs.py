@@ -5,7 +5,8 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver
+from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver, launch_file
+from ros_lint.analysis.memo import cached_by_name
 from ros_lint.collectors.symbolic_text import (
     UNKNOWN,
     configurations,
@@ -68,15 +69,31 @@ def expand_defaults(
     return expand(file, arguments, included, workspace.target.distro, brief=True)
 
 
-def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = False) -> Iterator[PassedFile]:
-    """Yield the launch and parameter files to which the included files refer if ``file`` is launched without arguments.
+def passed_files(file: LaunchFile, workspace: Workspace, *, settled: bool = False) -> tuple[PassedFile, ...]:
+    """Return the files to which the included files refer if a launch file of the workspace is launched without arguments.
 
-    ``settled`` limits the result to files that do not depend on the launch arguments.
+    They are launch files and parameter files. ``settled`` limits the result to files that do not depend on the launch arguments.
     """
-    expansion = expand_defaults(file, workspace, lambda inner: True)
-    if settled:
-        arguments = {argument.name: UNKNOWN for argument in expansion.arguments if not argument.given}
-        expansion = expand_defaults(file, workspace, lambda inner: True, arguments)
+    return (_passed_settled if settled else _passed)(workspace, file.path)
+
+
+@cached_by_name
+def _passed(workspace: Workspace, path: str) -> tuple[PassedFile, ...]:
+    file = launch_file(workspace, path)
+    return tuple(_passed_in(expand_defaults(file, workspace, lambda inner: True))) if file is not None else ()
+
+
+@cached_by_name
+def _passed_settled(workspace: Workspace, path: str) -> tuple[PassedFile, ...]:
+    file = launch_file(workspace, path)
+    if file is None:
+        return ()
+    declared = expand_defaults(file, workspace, lambda inner: True).arguments
+    arguments = {argument.name: UNKNOWN for argument in declared if not argument.given}
+    return tuple(_passed_in(expand_defaults(file, workspace, lambda inner: True, arguments)))
+
+
+def _passed_in(expansion: Expansion) -> Iterator[PassedFile]:
     for started in expansion.started:
         if started.via is None:
             continue

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import IncludeResolver, include_resolver
-from ros_lint.analysis.memo import cached_by_workspace
+from ros_lint.analysis.launch.configurations import include_tree
+from ros_lint.analysis.launch.includes import IncludeResolver, include_resolver, launch_file
+from ros_lint.analysis.memo import cached_by_name, cached_by_workspace
 from ros_lint.collectors.symbolic_text import configurations
 from ros_lint.facts.launch import LaunchAction, LaunchFile, values_of_action, walk_actions
 from ros_lint.workspace.model import Workspace
@@ -23,29 +24,39 @@ class PlacedInclude(NamedTuple):
     """The index in ``scope`` of the first action after the include."""
     leaves: bool
     """True if the configurations that the include sets are still set at the end of the file."""
+    number: int
+    """The number of ``scope`` among the scopes of the file that have includes, from 0."""
+
+
+class _Scope(NamedTuple):
+    """All actions of a launch file, or of a scoped group in it, that share their launch configurations, in order."""
+
+    actions: tuple[LaunchAction, ...]
+    leaves: bool
+    """True if a configuration that is set in the scope is still set at the end of the launch file."""
 
 
 def includes(file: LaunchFile) -> Iterator[PlacedInclude]:
     """Yield the includes of a launch file in the order of the file, also includes in groups."""
-    return _includes(file.actions, tuple(walk_actions(file.actions)), 0, leaves=True)
+    numbers: dict[int, tuple[int, _Scope]] = {}
+    for action, scope, later in _includes(file.actions, _Scope(tuple(walk_actions(file.actions)), leaves=True), 0):
+        number, _ = numbers.setdefault(id(scope), (len(numbers), scope))  # keeps the scope, so that its id stays unique
+        yield PlacedInclude(action, scope.actions, later, scope.leaves, number)
 
 
-def _includes(
-    actions: Sequence[LaunchAction], scope: tuple[LaunchAction, ...], position: int, *, leaves: bool
-) -> Iterator[PlacedInclude]:
-    """Yield the includes in ``actions``, also in groups.
+def _includes(actions: Sequence[LaunchAction], scope: _Scope, position: int) -> Iterator[tuple[LaunchAction, _Scope, int]]:
+    """Yield the includes in ``actions``, also in groups, each with its scope and the index of the next action in the scope.
 
-    ``scope`` has all actions that share their launch configurations, in order, and ``position`` is the index of the first of
-    ``actions`` in it. ``leaves`` is True if a configuration that is set in ``scope`` is still set at the end of the launch file.
+    ``scope`` contains ``actions``, and ``position`` is the index of the first of them in it.
     """
     for action in actions:
         after = position + 1 + (sum(1 for _ in walk_actions(action.children)) if action.children else 0)
         if action.kind == "include":
-            yield PlacedInclude(action, scope, after, leaves)
+            yield action, scope, after
         if action.children and action.has_scope:
-            yield from _includes(action.children, tuple(walk_actions(action.children)), 0, leaves=False)
+            yield from _includes(action.children, _Scope(tuple(walk_actions(action.children)), leaves=False), 0)
         elif action.children:
-            yield from _includes(action.children, scope, position + 1, leaves=leaves)
+            yield from _includes(action.children, scope, position + 1)
         position = after
 
 
@@ -58,60 +69,80 @@ class _Taker(NamedTuple):
     """The arguments that the include passes. They replace values that were set before the include."""
 
 
-class _Readers:
-    """The last action in a scope that may read a launch configuration, by the name of the configuration."""
+class _Readers(NamedTuple):
+    """The actions of a scope that may read launch configurations."""
 
-    def __init__(self, scope: Sequence[LaunchAction], source: LaunchFile, links: IncludeResolver) -> None:
-        self.scope = scope  # keeps the scope alive, because ScopeLeaks finds this object by the id of the scope
-        self._last: dict[str, int] = {}
-        self._known: dict[str, int] = {}
-        """Results of :meth:`last` by name of the configuration."""
-        self._of_any: list[_Taker] = []
-        """Includes that may read any configuration."""
-        self._by_file: dict[str, list[_Taker]] = {}
-        self._files: dict[str, list[str]] = {}
-        """Paths of the included files that read a configuration, by the name of the configuration."""
+    last_action: Mapping[str, int]
+    """The index of the last action that reads a configuration itself, by the name of the configuration."""
+    of_any: tuple[_Taker, ...]
+    """Includes that may read any configuration."""
+    by_file: Mapping[str, tuple[_Taker, ...]]
+    """Includes by the path of the included file, if its configurations are all known."""
+    files: Mapping[str, tuple[str, ...]]
+    """Paths of the included files that read a configuration, by the name of the configuration."""
+
+    @classmethod
+    def of(cls, scope: Sequence[LaunchAction], source: LaunchFile, links: IncludeResolver) -> _Readers:
+        """Return the actions in ``scope``, a part of the launch file ``source``, that may read launch configurations."""
+        last: dict[str, int] = {}
+        of_any: list[_Taker] = []
+        by_file: dict[str, tuple[_Taker, ...]] = {}
+        files: dict[str, tuple[str, ...]] = {}
         for position, action in enumerate(scope):
             for text, _ in values_of_action(action):
-                self._last.update({name: position for name, _, _ in configurations(text)})
-            if action.kind == "include":
-                self._add(_Taker(position, frozenset(name for name, _ in action.arguments)), action, source, links)
-
-    def _add(self, taker: _Taker, action: LaunchAction, source: LaunchFile, links: IncludeResolver) -> None:
-        target = links.target(action.target, source)
-        takes = links.takes(target.file) if target is not None else None
-        if target is None or takes is None or not takes.complete:
-            self._of_any.append(taker)
-            return
-        if target.file.path not in self._by_file:
-            for name in takes.known:
-                self._files.setdefault(name, []).append(target.file.path)
-        self._by_file.setdefault(target.file.path, []).append(taker)
+                last.update({name: position for name, _, _ in configurations(text)})
+            if action.kind != "include":
+                continue
+            taker = _Taker(position, frozenset(name for name, _ in action.arguments))
+            target = links.target(action.target, source)
+            takes = links.takes(target.file) if target is not None else None
+            if target is None or takes is None or not takes.complete:
+                of_any.append(taker)
+                continue
+            path = target.file.path
+            if path not in by_file:
+                files.update({name: (*files.get(name, ()), path) for name in takes.known})
+            by_file[path] = (*by_file.get(path, ()), taker)
+        return cls(last, tuple(of_any), by_file, files)
 
     def last(self, name: str) -> int:
         """Return the index of the last action that may read the configuration ``name``, -1 if there is none."""
-        if name not in self._known:
-            groups = [self._of_any, *(self._by_file[path] for path in self._files.get(name, ()))]
-            takers = (next((taker.position for taker in reversed(group) if name not in taker.passed), -1) for group in groups)
-            self._known[name] = max(self._last.get(name, -1), *takers)
-        return self._known[name]
+        groups = [self.of_any, *(self.by_file[path] for path in self.files.get(name, ()))]
+        takers = (next((taker.position for taker in reversed(group) if name not in taker.passed), -1) for group in groups)
+        return max(self.last_action.get(name, -1), *takers)
+
+
+@cached_by_name
+def _readers(workspace: Workspace, path: str) -> tuple[_Readers, ...]:
+    """Return the readers in each scope with includes of the launch file at ``path``."""
+    file = launch_file(workspace, path)
+    scopes = {include.number: include.scope for include in includes(file)} if file is not None else {}
+    return tuple([_Readers.of(scope, file, include_resolver(workspace)) for scope in scopes.values() if file is not None])
+
+
+@cached_by_name
+def _placed_above(workspace: Workspace, path: str) -> tuple[tuple[str, PlacedInclude], ...]:
+    """Return the includes of the launch file at ``path``, each with the path of the including file."""
+    links = include_resolver(workspace)
+    result = []
+    for includer in sorted(include_tree(workspace).includers(path)):
+        file = launch_file(workspace, includer)
+        for include in includes(file) if file is not None else ():
+            target = links.target(include.action.target, file) if file is not None else None
+            if target is not None and target.file.path == path:
+                result.append((includer, include))
+    return tuple(result)
 
 
 class ScopeLeaks:
     """Finds actions that may read a launch configuration after the include that has set it."""
 
-    def __init__(self, files: Iterable[LaunchFile], links: IncludeResolver) -> None:
-        self._links = links
-        self._by_scope: dict[int, _Readers] = {}
-        self._above: dict[str, list[tuple[LaunchFile, PlacedInclude]]] = {}
-        for file in files:
-            for include in includes(file):
-                if (target := links.target(include.action.target, file)) is not None:
-                    self._above.setdefault(target.file.path, []).append((file, include))
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
 
     def is_taken_later(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
         """Return whether an action after ``include`` in the launch file ``source`` may read the configuration ``name``."""
-        return self._readers(include.scope, source).last(name) >= include.later
+        return self._is_taken_later(name, include, source.path)
 
     def is_taken_above(self, name: str, include: PlacedInclude, source: LaunchFile) -> bool:
         """Return whether a launch file that includes ``source`` may read the configuration ``name`` after ``source`` has run.
@@ -120,19 +151,16 @@ class ScopeLeaks:
         """
         seen, waiting = {source.path}, [source.path] if include.leaves else []
         while waiting:
-            for file, above in self._above.get(waiting.pop(), ()):
-                if self.is_taken_later(name, above, file):
+            for path, above in _placed_above(self._workspace, waiting.pop()):
+                if self._is_taken_later(name, above, path):
                     return True
-                if above.leaves and file.path not in seen:
-                    seen.add(file.path)
-                    waiting.append(file.path)
+                if above.leaves and path not in seen:
+                    seen.add(path)
+                    waiting.append(path)
         return False
 
-    def _readers(self, scope: Sequence[LaunchAction], source: LaunchFile) -> _Readers:
-        readers = self._by_scope.get(id(scope))
-        if readers is None:
-            readers = self._by_scope[id(scope)] = _Readers(scope, source, self._links)
-        return readers
+    def _is_taken_later(self, name: str, include: PlacedInclude, path: str) -> bool:
+        return _readers(self._workspace, path)[include.number].last(name) >= include.later
 
 
 @cached_by_workspace
@@ -141,5 +169,4 @@ def scope_leaks(workspace: Workspace) -> ScopeLeaks:
 
     It finds launch configurations that are read after the include that has set them.
     """
-    files = [file for package in workspace.packages for file in package.launch]
-    return ScopeLeaks(files, include_resolver(workspace))
+    return ScopeLeaks(workspace)

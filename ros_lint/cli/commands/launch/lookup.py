@@ -6,7 +6,7 @@ import posixpath
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.includes import AcceptedArguments, IncludeResolver
+from ros_lint.analysis.launch.includes import AcceptedArguments, include_resolver
 from ros_lint.analysis.launch.node_programs import node_program
 from ros_lint.analysis.launch.parameter_files import parameter_contents
 from ros_lint.base.paths import resolve, strip_folder
@@ -48,7 +48,7 @@ class LaunchFileLookup:
         self._workspace = workspace
         self._tree = tree
         self._sources = {file.path: file for package in workspace.packages for file in package.launch}
-        self._includes = IncludeResolver(workspace.packages)
+        self._includes = include_resolver(workspace)
         self._results: dict[str, LaunchFile | Absent] = {}
         self._parameters: dict[str, ParameterFile | None] = {}
 
