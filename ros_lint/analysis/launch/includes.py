@@ -106,7 +106,7 @@ def _sets(workspace: Workspace, path: str) -> Mapping[str, tuple[str, ...]]:
 def _owns(workspace: Workspace, path: str) -> _Own | None:
     """Return the own configurations of the launch file at ``path``, None if there is none."""
     file = launch_file(workspace, path)
-    return include_resolver(workspace).own(file) if file is not None else None
+    return _own(file, include_resolver(workspace)) if file is not None else None
 
 
 @cached_by_name
@@ -189,28 +189,13 @@ class IncludeResolver:
     def includes(self, file: LaunchFile) -> list[LaunchFile]:
         """Return the launch files of the workspace that a file certainly includes."""
         own = _owns(self._workspace, file.path) if self._is_of_workspace(file) else None
-        paths = (own or self.own(file)).includes
+        paths = (own or _own(file, self)).includes
         return [inner for path in paths if (inner := launch_file(self._workspace, path)) is not None]
 
     def takes(self, file: LaunchFile) -> AcceptedArguments:
         """Return the launch configurations that a file and its included files accept."""
         done = _takes(self._workspace, file.path) if self._is_of_workspace(file) else None
-        return done or _with_included(self._workspace, file.path, self.own(file))
-
-    def own(self, file: LaunchFile) -> _Own:
-        """Return the configurations of a file without those of its included files. For use by this module."""
-        known = configurations_read(file)
-        complete = _is_read_completely(file) and all(map(is_plain, known))
-        includes: list[str] = []
-        for action in walk_actions(file.actions):
-            if action.kind in ("argument", "set") and action.target is not None:
-                known.update(action.target.texts)
-                complete = complete and all(is_plain(text) for text in action.target.texts)
-            if action.kind == "include":
-                inner = self.target(action.target, file)
-                complete = complete and inner is not None
-                includes += [inner.file.path] if inner is not None else []
-        return _Own(dict(_required(file.actions)), frozenset(known), complete, tuple(includes))
+        return done or _with_included(self._workspace, file.path, _own(file, self))
 
     def _only_file(self, package: str, path: str) -> InstalledLaunchFile | None:
         """Return the launch file that is installed to a path below share/<package>; None if there are none or several."""
@@ -226,6 +211,22 @@ class IncludeResolver:
         """Return whether a file is the launch file that the workspace has at its path, and not one that was read by a command."""
         known = launch_file(self._workspace, file.path)
         return known is file or known == file
+
+
+def _own(file: LaunchFile, links: IncludeResolver) -> _Own:
+    """Return the configurations of a file without those of its included files."""
+    known = configurations_read(file)
+    complete = _is_read_completely(file) and all(map(is_plain, known))
+    includes: list[str] = []
+    for action in walk_actions(file.actions):
+        if action.kind in ("argument", "set") and action.target is not None:
+            known.update(action.target.texts)
+            complete = complete and all(is_plain(text) for text in action.target.texts)
+        if action.kind == "include":
+            inner = links.target(action.target, file)
+            complete = complete and inner is not None
+            includes += [inner.file.path] if inner is not None else []
+    return _Own(dict(_required(file.actions)), frozenset(known), complete, tuple(includes))
 
 
 def _set_in(file: LaunchFile) -> Mapping[str, tuple[str, ...]]:
