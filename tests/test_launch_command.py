@@ -1,6 +1,7 @@
 """``ros-lint launch``."""
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -599,3 +600,53 @@ def generate_launch_description():
     assert (err, code) == ("", 0)
     _, err, code = ask(files, "p", "a.launch.py", "rear:=true")
     assert (err, code) == (f"ros-lint: p/launch/a.launch.py:20:5: {message}: never called\n", 1)
+
+
+READS_FILES = """
+import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import OpaqueFunction
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterFile
+
+
+def read(name):
+    with open(os.path.join(get_package_share_directory("p"), name)) as file:
+        return file.read()
+
+
+def tolerant(context):
+    try:
+        return [read("launch/caught.txt")] and []
+    except OSError:
+        return []
+
+
+def generate_launch_description():
+    text = read("launch/FILE")
+    parameters = [ParameterFile(os.path.join(get_package_share_directory("p"), "launch", "SUBST"), allow_substs=True)]
+    return LaunchDescription([
+        OpaqueFunction(function=lambda context: [read("launch/LATER")] and []),
+        OpaqueFunction(function=tolerant),
+        Node(package="p", executable="launch", parameters=parameters),
+    ])
+"""
+
+
+@pytest.mark.parametrize("missing", ["", "FILE", "LATER", "SUBST"])
+def test_files_that_the_launch_file_opens_have_to_exist(missing: str) -> None:
+    text = READS_FILES.replace(missing, "missing") if missing else READS_FILES
+    files = package("p", {"launch/a.launch.py": text, **{f"launch/{name}": "" for name in ("FILE", "LATER", "SUBST")}})
+    _, err, code = ask(files, "p", "a.launch.py")
+    expected = "launch/missing: 'p' does not install 'launch/missing'"
+    assert (expected in err, code) == ((True, 1) if missing else (False, 0))
+
+
+def test_substitutions_in_a_parameter_file_need_their_configurations() -> None:
+    parameters = "# $(var in_comment)\n/**:\n  ros__parameters:\n    a: $(var in_value)\n"
+    body = '<node pkg="p" exec="launch"><param from="$(find-pkg-share p)/launch/a.yaml" allow_substs="SUBST"/></node>'
+    for substitutes, names in (("true", ["in_comment", "in_value"]), ("false", [])):
+        files = package("p", {"launch/a.launch.xml": xml(body.replace("SUBST", substitutes)), "launch/a.yaml": parameters})
+        _, err, _ = ask(files, "p", "a.launch.xml")
+        assert re.findall(r"configuration '(\w+)' is not set", err) == names

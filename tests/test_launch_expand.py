@@ -302,6 +302,22 @@ def test_a_value_that_a_function_reads_before_a_timer_or_event_is_kept(handler: 
     assert [summaries(expand(file, {}, distro=distro)) for distro in ("humble", "rolling")] == [["node p one"]] * 2
 
 
+def test_a_function_needs_the_configurations_that_it_reads() -> None:
+    """It fails at a configuration without value, even if it uses the value nowhere."""
+    body = "[LaunchConfiguration('x').perform(context), context.perform_substitution(LaunchConfiguration('y'))] and []"
+    declared = "DeclareLaunchArgument('x', default_value='1')"
+    function = f"OpaqueFunction(function=lambda context: {body})"
+    assert unset(run(python(f"{function}, {declared}"))) == ["x", "y"]
+    assert unset(run(python(f"{declared}, {function}"))) == ["y"]
+    assert unset(run(python(f"OpaqueFunction(condition=IfCondition('false'), function=lambda context: {body})"))) == []
+    assert unset(run(opaque("context.launch_configurations.get('x')\nreturn []"))) == []
+    caught = "try:\n    LaunchConfiguration('x').perform(context)\nexcept Exception:\n    pass\nreturn []"
+    assert unset(run(opaque(caught.replace("\n", "\n")))) == []
+    chosen = "if LaunchConfiguration('on').perform(context) == 'true':\n    LaunchConfiguration('x').perform(context)\nreturn []"
+    assert unset(run(opaque(chosen, "DeclareLaunchArgument('on', default_value='false')"))) == []
+    assert unset(run(opaque(chosen, "DeclareLaunchArgument('on', default_value='true')"))) == ["x"]
+
+
 def test_actions_of_a_timer_in_an_included_file_name_the_include() -> None:
     inner = python("TimerAction(period=1.0, actions=[Node(package='p', executable='a')])", "/x/inner.launch.py")
     outer = xml('<include file="/x/inner.launch.py"/><node pkg="p" exec="b"/>')

@@ -63,6 +63,29 @@ def generate_launch_description():
     assert not resolved.opaque
 
 
+def test_a_module_counts_if_it_adds_actions_and_further_unknown_places() -> None:
+    files = {
+        "app/helpers.py": HELPER
+        + """
+from launch.actions import GroupAction
+
+def start_all():
+    return [GroupAction([start("camera"), *input()]), start("lidar"), *input()]
+""",
+        "launch/a.launch.py": """
+from launch import LaunchDescription
+from app.helpers import start_all
+
+def generate_launch_description():
+    return LaunchDescription(start_all())
+""",
+    }
+    package = _package("app", files, {"share/app/launch/a.launch.py": "launch/a.launch.py"}, ("app", "app.helpers"))
+    file = _completed((package, files))["app/launch/a.launch.py"]
+    assert {("driver", "camera"), ("driver", "lidar")} <= _named(file)
+    assert file.opaque
+
+
 def test_a_helper_module_of_the_same_package_is_interpreted() -> None:
     files = {
         "app/helpers.py": HELPER,

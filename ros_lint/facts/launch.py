@@ -19,6 +19,9 @@ ACCEPTED_PROBLEMS: Final = frozenset({"forgotten-path", "no-slash", "substitutio
 """Kinds of problems of a launch file that ``ros2 launch`` does not detect: it starts the file with wrong values."""
 
 
+OPENED: Final = "file"
+"""The ``description`` of a ``read`` action if the text is the path of a file that the launch file opens."""
+
 TIMER: Final = "TimerAction"
 """The ``name`` of a ``later`` action that a timer starts."""
 
@@ -93,7 +96,7 @@ class LaunchAction(NamedTuple):
     One of ``argument``, ``set``, ``unset``, ``node``, ``component``, ``include``, ``group``, ``process``, ``namespace``,
     ``remap``, ``parameter``, ``environment``, ``unset_environment``, ``reset`` (of all launch configurations except those
     in ``arguments``), ``reset_environment``, ``later`` (actions of a timer or an event handler), ``raise`` (of an exception in
-    a function that launch calls) or ``other``.
+    a function that launch calls), ``read`` (of launch configurations or a file by the program itself) or ``other``.
     """
     span: Span
     """Place of the action: in Python the whole call, in XML and YAML the name of the element."""
@@ -116,6 +119,7 @@ class LaunchAction(NamedTuple):
     * ``argument``: the default, None if the argument is required.
     * ``set``, ``environment``, ``parameter``: the value. For a parameter file, the file.
     * ``remap``: the new name. ``namespace``: the namespace. ``later``: the period of a timer in seconds.
+    * ``read``: a text with the launch configurations, or the path of the file.
     """
     name: LaunchValue | None = None
     """Name of a node or component; None if the launch file does not set the name. For ``later``, the class of the event handler.

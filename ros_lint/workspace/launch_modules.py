@@ -140,7 +140,7 @@ class LaunchModules:
             return None if content is None else content.text
 
         interpreted = launch_py.collect(text, modules, files)
-        if len(interpreted.opaque) > len(file.opaque):
+        if len(interpreted.opaque) > len(file.opaque) and _count(interpreted) <= _count(file):
             return file
         # Actions in a module of another package are dependencies of that package.
         references = [use for use in interpreted.references if self._folder_of(use.package_span.path) == folder]
@@ -243,6 +243,11 @@ class LaunchModules:
 
     def _find_installed_sources(self, folder: str) -> dict[str, str]:
         return {file.path: resolve(folder, file.source) for file in self._by_path[folder].installs if file.source}
+
+
+def _count(file: LaunchFile) -> int:
+    """Return the number of actions in a launch file."""
+    return sum(1 for _ in walk_actions(file.actions))
 
 
 def _needs_inputs(file: LaunchFile) -> bool:

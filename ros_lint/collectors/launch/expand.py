@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 from ros_lint.base.budget import Budget
 from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.launch.delayed import Delayed, assembled, has_own_environment, has_own_values, next_of, time_of
-from ros_lint.collectors.launch.expansion import Argument, Circle, Expansion, Missing, Raised, Refused, Started, Unset
+from ros_lint.collectors.launch.expansion import Argument, Circle, Expansion, Missing, Opened, Raised, Refused, Started, Unset
 from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, Texts, final_parameters, of_command_line
 from ros_lint.collectors.launch.scope import COMPUTED, Filling, LaunchScope
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_node_renaming, is_settled
+from ros_lint.facts.launch import OPENED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -61,6 +62,7 @@ def expand(
         tuple(run.variables),
         tuple(run.raised),
         tuple(run.unset),
+        tuple(run.opened),
     )
 
 
@@ -88,6 +90,7 @@ class _Run:
         self.circles: list[Circle] = []
         self.raised: list[Raised] = []
         self.unset: dict[Unset, None] = {}
+        self.opened: dict[Opened, None] = {}
         self.complete = True
         self._may_be_set = False
         """True if something that was not followed may have set any launch configuration."""
@@ -203,6 +206,11 @@ class _Run:
                 self._handlers += 1
             case "include":
                 return outer.after(self._include(action, scope))
+            case "read":
+                texts = self._texts(action.value, scope)
+                self._note_unset(action, scope)
+                if action.description == OPENED:
+                    self._note_opened(texts, action.span, scope)
             case "raise":
                 if scope.certain and not scope.later:
                     self.raised.append(Raised(action.span, action.description))
@@ -222,6 +230,11 @@ class _Run:
             for name in self._filling.unset:
                 self.unset[Unset(name, action.span, scope.include)] = None
         self._filling.unset.clear()
+
+    def _note_opened(self, texts: Texts, span: Span, scope: LaunchScope) -> None:
+        """Record that launch, or the launch file, reads the file at the path that ``texts`` are the possible values of."""
+        if scope.certain and not scope.later and len(texts) == 1 and is_settled(texts[0]):
+            self.opened[Opened(texts[0], span)] = None
 
     def _declare(self, action: LaunchAction, scope: LaunchScope) -> None:
         for name in self._texts(action.target, scope):
@@ -390,10 +403,24 @@ class _Run:
             via=self._via,
         )
         self._note_unset(action, scope)
+        self._note_changed_files(action, given, scope)
         if is_node and self._contents is not None:
             started = started._replace(final=self._final(started, given, scope, self._contents))
         self.started.append(started)
         return started
+
+    def _note_changed_files(self, action: LaunchAction, given: Iterable[GivenParameter], scope: LaunchScope) -> None:
+        """Record the parameter files that launch reads because it changes them, and the configurations that they need."""
+        for one in given:
+            if one.name or not one.certain or not any(change.certain for change in one.changes):
+                continue
+            self._note_opened(one.texts, one.span or action.span, scope)
+            if not any(change.certain and change.kind == "substitute" for change in one.changes) or self._contents is None:
+                continue
+            file = self._contents(one.texts[0]) if len(one.texts) == 1 and is_settled(one.texts[0]) else None
+            needed = () if file is None else file.configurations_read
+            self._filling.unset.update(dict.fromkeys([name for name in needed if name not in scope.values and name != UNKNOWN]))
+        self._note_unset(action, scope)
 
     def _word(self, value: LaunchValue, scope: LaunchScope, absent: str) -> Texts:
         """Return the possible texts of a word of a command line: () if the word is absent, with ``absent`` if it may be."""

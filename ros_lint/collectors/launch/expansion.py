@@ -126,6 +126,15 @@ class Unset(NamedTuple):
     """The place of the include of the file with the action, None for the launched file."""
 
 
+class Opened(NamedTuple):
+    """A file that a launch file, or launch, certainly opens before it starts any node."""
+
+    path: str
+    """The path, in the form of the path of an include."""
+    span: Span
+    """The place in the launch file that leads to it."""
+
+
 class Raised(NamedTuple):
     """An exception that a launch file raises on purpose."""
 
@@ -156,3 +165,5 @@ class Expansion(NamedTuple):
     """Exceptions that end the launch."""
     unset: tuple[Unset, ...] = ()
     """Launch configurations without value. They are left out if a part that cannot be followed may set them."""
+    opened: tuple[Opened, ...] = ()
+    """Files that are read during the launch, except launch files."""

@@ -100,6 +100,8 @@ class References:
 
     def _add_action(self, action: LaunchAction, conditional: bool) -> None:
         match action.kind:
+            case "read":
+                return  # the callers note the files that are opened
             case "node" | "component":
                 self._note_program(action, conditional)
             case "include":

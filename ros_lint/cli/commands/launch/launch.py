@@ -212,6 +212,14 @@ def _problems(file: LaunchFile, lookup: LaunchFileLookup, expansion: Expansion, 
         yield f"{invalid.span}: '{invalid.value}' is not a valid choice for the argument '{invalid.name}'; use one of {choices}"
     for raised in expansion.raised:
         yield f"{raised.span}: the launch file raises an exception here{f': {raised.message}' if raised.message else ''}"
+    for opened in expansion.opened:
+        reason = lookup.missing(opened.path)
+        if reason:
+            yield f"{opened.span}: {readable(opened.path)}: {reason}"
+    for opened in expansion.opened:
+        reason = lookup.missing(opened.path)
+        if reason:
+            yield f"{opened.span}: {readable(opened.path)}: {reason}"
     for cycle in expansion.circles:
         yield f"{cycle.span}: this include leads back to {cycle.path}, so launching never ends"
     for started in expansion.started:

@@ -15,7 +15,7 @@ from ros_lint.base.text import read
 from ros_lint.cli.session import UsageError
 from ros_lint.collectors.file_types import kind_of
 from ros_lint.collectors.resources.parameter_files import collect as collect_parameters
-from ros_lint.collectors.symbolic_text import configurations, installed, installed_place, share
+from ros_lint.collectors.symbolic_text import configurations, installed, installed_place, is_plain, share
 from ros_lint.facts.launch import values, walk_actions
 from ros_lint.facts.visibility import Facet
 from ros_lint.workspace.collect import collect
@@ -202,6 +202,32 @@ class LaunchFileLookup:
         except OSError as error:
             return Absent(f"it cannot be read: {error.strerror or error}", certain=False)
         return self._collected(path, data)
+
+    def missing(self, path: str) -> str:
+        """Return the reason why a file that a launch file opens certainly does not exist, "" if it may exist."""
+        place = installed_place(path)
+        if place is None:
+            return "no such file" if is_plain(path) and not path.startswith("/") and self._is_missing(path) else ""
+        packages = self._workspace.by_name.get(place.package, ())
+        for candidate in packages:
+            if candidate.script is None or candidate.hidden(Facet.SHARE, place.path):
+                return ""
+            for provided in candidate.built.products.installs:
+                if provided.path == place.path:
+                    source = resolve(candidate.path, provided.source) if provided.source else ""
+                    return f"{source}: no such file" if source and self._is_missing(source) else ""
+        if not packages or not place.path or not is_plain(place.path):
+            return ""
+        return f"'{place.package}' does not install '{place.path.removeprefix(f'share/{place.package}/')}'"
+
+    def _is_missing(self, path: str) -> bool:
+        try:
+            self._tree.stamp(path)
+        except (FileNotFoundError, NotADirectoryError):
+            return True
+        except OSError:
+            return False
+        return False
 
     # --- parameter files ------------------------------------------------------------------------------------------
 

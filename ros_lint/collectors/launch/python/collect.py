@@ -17,6 +17,7 @@ from ros_lint.collectors.launch.presence_checks import is_guarded_by_presence
 from ros_lint.collectors.launch.python.actions import LAUNCHED, walker
 from ros_lint.collectors.launch.python.argument_checks import dropped_paths, rejected_arguments
 from ros_lint.collectors.launch.python.description_checks import description_problems
+from ros_lint.collectors.launch.python.events import readings
 from ros_lint.collectors.launch.python.import_checks import misplaced_imports
 from ros_lint.collectors.launch.python.library import PACKAGE_SUBSTITUTIONS
 from ros_lint.collectors.launch.python.meaning import LaunchLibraries
@@ -44,7 +45,7 @@ from ros_lint.collectors.python.interpreter.values import (
 from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import read, refusal, span_of
 from ros_lint.collectors.symbolic_text import UNKNOWN
-from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
+from ros_lint.facts.launch import OPENED, LaunchAction, LaunchFile, LaunchValue
 from ros_lint.facts.visibility import Facet, Opaque, Problem
 
 _MAX_LENGTH = 250_000
@@ -170,8 +171,10 @@ class _Interpretation:
         for name in ("generate_launch_description", "generate_test_description"):
             function = frame.names.get(name)
             if isinstance(function, Function):
-                started = self._walker.actions(self._call(function, name, frame))
-                self.actions += [*self._walker.actions(self._machine.variables), *started]
+                result = self._call(function, name, frame)
+                opened = readings(self._machine.opened, (), OPENED)
+                started = self._walker.actions(result)
+                self.actions += [*opened, *self._walker.actions(self._machine.variables), *started]
                 if function.changed:
                     place = span_of(self._source.text, function.node)
                     self._opaque.append(Opaque(Facet.USES, f"the decorator of {name}() cannot be followed", place))

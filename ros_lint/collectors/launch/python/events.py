@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of, span_of
 from ros_lint.collectors.python.interpreter.methods import items
@@ -15,12 +15,13 @@ from ros_lint.collectors.python.interpreter.values import (
     Function,
     Instance,
     LaunchObject,
+    Source,
     Unknown,
     alternatives,
     plain,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN, configuration
-from ros_lint.facts.launch import TIMER, LaunchAction, LaunchValue
+from ros_lint.facts.launch import OPENED, TIMER, LaunchAction, LaunchValue
 
 
 def _timer(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
@@ -95,7 +96,7 @@ def _opaque_function(walker: Walker, launch_object: LaunchObject, conditions: Co
     keywords = plain(launch_object.get(-1, "kwargs"))
     outer_conditions, variables = walker.machine.conditions, walker.machine.variables
     walker.machine.conditions, walker.machine.variables = (), []
-    known_raises = len(walker.machine.raises)
+    known_raises, known_reads, known_files = (len(walker.machine.raises), len(walker.machine.reads), len(walker.machine.opened))
     try:
         result = walker.run(
             launch_object.get(0, "function"),
@@ -108,11 +109,31 @@ def _opaque_function(walker: Walker, launch_object: LaunchObject, conditions: Co
         walker.machine.variables = variables
     # Its assignments may depend on arguments that are declared before it, not on later ones.
     actions = walker.actions(assignments, conditions, place_of(launch_object))
+    actions += readings(walker.machine.reads[known_reads:], conditions)
+    actions += readings(walker.machine.opened[known_files:], conditions, OPENED)
     actions += [
         LaunchAction("raise", span_of(node, source), description=_message(node), conditions=(*conditions, *inner))
         for node, source, inner in walker.machine.raises[known_raises:]
     ]
     return [*actions, *walker.actions(result, conditions, place_of(launch_object))] if result is not None else actions
+
+
+def readings(
+    reads: Iterable[tuple[str, ast.expr, Source, Conditions]], conditions: Conditions, what: str = ""
+) -> list[LaunchAction]:
+    """Return an action for each text that a program reads under ``conditions``: the path of a file if ``what`` is OPENED."""
+    actions: dict[LaunchAction, None] = {}
+    for text, node, source, inner in reads:
+        if UNKNOWN in text:
+            continue
+        place = span_of(node, source)
+        value = LaunchValue((str(text),), place)
+        actions[LaunchAction("read", place, value=value, conditions=(*conditions, *inner), description=what)] = None
+    return list(actions)[:_MOST_READINGS]
+
+
+_MOST_READINGS = 200
+"""The maximum number of launch configurations or files that a function reads. Real functions read up to 60."""
 
 
 def _message(node: ast.Raise) -> str:

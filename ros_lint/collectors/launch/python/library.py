@@ -288,14 +288,16 @@ def _perform(position: int) -> Rule:
 
 def _read(call: LibraryCall, texts: tuple[str, ...]) -> Value:
     """Return the result of a call that reads launch configurations at once."""
-    call.machine.note_read(texts)
+    call.machine.note_read(texts, call.node, call.frame.source)
     return call.result(texts)
 
 
 def _configuration(call: LibraryCall) -> Value:
     default = call.get(1)
     defaults = call.texts(1) if default is not None else (None,)
-    return _read(call, tuple(symbolic_text.configuration(name, value) for name in call.texts(0) for value in defaults))
+    found = tuple(symbolic_text.configuration(name, value) for name in call.texts(0) for value in defaults)
+    call.machine.note_read(found)
+    return call.result(found)
 
 
 def _xacro_output(call: LibraryCall) -> Value:

@@ -101,6 +101,8 @@ class Recorder:
         """The number of try statements around the interpreted statement that catch the error of a missing file."""
         self.read: dict[str, None] = {}
         """Launch configurations whose values functions of the program read while launch runs, in order."""
+        self.reads: list[tuple[str, ast.expr, Source, Conditions]] = []
+        """Texts with launch configurations that have to be set then, with expression, module and conditions of each reading."""
         self.lazily: set[str] = set()
         """Packages that launch looks up while it runs the launch description, for example for ``FindPackageShare``."""
         self.named: dict[str, tuple[ast.expr, Source]] = {}
@@ -108,10 +110,16 @@ class Recorder:
         self.variables: list[LaunchObject] = []
         """Actions that set environment variables of the launch process or launch configurations, in order."""
 
-    def note_read(self, texts: Iterable[str]) -> None:
-        """Record the launch configurations in texts that the program reads while launch runs."""
+    def note_read(self, texts: Iterable[str], at: ast.expr | None = None, source: Source | None = None) -> None:
+        """Record the launch configurations in texts that the program reads while launch runs.
+
+        ``at`` is the expression that raises an exception if a configuration without default has no value, None if there is none.
+        """
         for text in texts:
-            self.read.update(dict.fromkeys(() if text.isascii() else named_in(text) or ()))
+            names = () if text.isascii() else named_in(text) or ()
+            self.read.update(dict.fromkeys(names))
+            if names and at is not None and source is not None and not self.caught:
+                self.reads.append((text, at, source, self.conditions))
 
     # --- conditions -----------------------------------------------------------------------------------------------
 
