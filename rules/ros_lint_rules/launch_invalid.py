@@ -38,6 +38,7 @@ Not reported:
 - Launch files of ROS 1, and files of another program whose nodes have neither package nor executable.
 - Tags that packages add to the format.
 - Launch files of tests, examples and templates.
+- Removed keywords below a condition that names a distribution before Galactic, as `distro == 'foxy'`.
 - Additions to the format, if no distribution was chosen.
 - Substitutions treated as strings, or numbers passed as strings, in code that catches errors or only prints, such as `print()`.
 

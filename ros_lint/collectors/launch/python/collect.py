@@ -22,6 +22,7 @@ from ros_lint.collectors.launch.python.import_checks import misplaced_imports
 from ros_lint.collectors.launch.python.library import PACKAGE_SUBSTITUTIONS
 from ros_lint.collectors.launch.python.meaning import LaunchLibraries
 from ros_lint.collectors.launch.python.newer_features import newer_features
+from ros_lint.collectors.launch.python.old_distributions import alternatives_for_old
 from ros_lint.collectors.launch.python.runtime_errors import (
     divided_texts,
     misused_substitutions,
@@ -82,6 +83,7 @@ def collect(
     except (BudgetExceeded, RecursionError, MemoryError):
         interpretation.stop("interpreting the file takes too many steps")
     interpretation.problems.extend(interpretation.runtime_problems(tree))
+    interpretation.forgive_old_keywords(tree)
     references = References(interpretation.actions, interpretation.places())
     interpretation.add_to(references)
     return LaunchFile(
@@ -162,6 +164,16 @@ class _Interpretation:
         yield from description_problems(tree, self._source)
         yield from dropped_paths(tree, self._source)
         yield from misplaced_imports(tree, self._source)
+
+    def forgive_old_keywords(self, tree: ast.Module) -> None:
+        """Drop the problems of removed keywords that the file uses only in distributions which have these keywords."""
+        if any(problem.kind == "removed-keyword" for problem in self.problems):
+            old = list(alternatives_for_old(tree, self._source.text))
+            self.problems[:] = [
+                problem
+                for problem in self.problems
+                if problem.kind != "removed-keyword" or not any(span.covers(problem.span) for span in old)
+            ]
 
     def newer_features(self, tree: ast.Module) -> Iterator[Problem]:
         return newer_features(tree, self._source, self._machine.made)
