@@ -22,6 +22,8 @@ Not reported:
 - Configurations of a file with more than two undeclared ones, because such a file is made to be included by other files.
 - Files that include a launch file from outside the workspace, and all files if a file of the workspace cannot be read, because it
   may include them.
+- Configurations of a file if it, or a file above or below it in the tree of includes, includes an unknown launch file or has an
+  action of an unknown class, unless the name is nearly that of a declared argument.
 - Configurations read with a default, if any launch file of the workspace sets or passes them, or if the name differs from the
   declared one in a number.
 
@@ -47,18 +49,21 @@ A file that reads more is assumed to be included by a file that sets them.
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for launch_file in launch.package_launch_files(package):
         if (arguments := launch.argument_use(launch_file.file, workspace)) is not None:
-            included = bool(launch.include_tree(workspace).above(launch_file.file))
-            yield from _undeclared(arguments, included=included)
+            tree = launch.include_tree(workspace)
+            included = bool(tree.above(launch_file.file))
+            yield from _undeclared(arguments, included=included, sure=tree.declares_all(launch_file.file))
             yield from _similar(arguments)
 
 
-def _undeclared(arguments: launch.ArgumentUse, *, included: bool) -> Iterator[Finding]:
+def _undeclared(arguments: launch.ArgumentUse, *, included: bool, sure: bool) -> Iterator[Finding]:
     """Yield the findings for undeclared configurations that a launch file reads without a default.
 
-    ``included``: whether another launch file includes the file.
+    ``included``: whether another launch file includes the file. ``sure``: whether nothing unknown may declare configurations.
     """
     for name, span in arguments.undeclared.items() if len(arguments.undeclared) <= _MOST_MISSING else ():
         near = names.similar_names(name, sorted(arguments.declared), 1, 0.85)
+        if not (near or sure):
+            continue
         yield Finding(
             f"launch configuration '{name}' is read, but nothing declares or sets it{names.did_you_mean(near) or '; declare it'}",
             span,

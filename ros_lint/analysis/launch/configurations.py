@@ -120,8 +120,30 @@ def _of_all(workspace: Workspace) -> Iterator[FileConfigurations]:
 def _fills(workspace: Workspace, path: str) -> bool:
     if not _filling(workspace):
         return False
+    return not _related(workspace, path).isdisjoint(_filling(workspace))
+
+
+def _related(workspace: Workspace, path: str) -> set[str]:
+    """Return the paths of a file and of the files above and below it in the tree of includes."""
     includers, included = _relation(workspace)
-    return not ({path} | _reached(includers, path) | _reached(included, path)).isdisjoint(_filling(workspace))
+    return {path} | _reached(includers, path) | _reached(included, path)
+
+
+@cached_by_name
+def _declares_all(workspace: Workspace, path: str) -> bool:
+    return not any(_may_declare_any(workspace, related) for related in sorted(_related(workspace, path)))
+
+
+@cached_by_name
+def _may_declare_any(workspace: Workspace, path: str) -> bool:
+    """Return whether a launch file has an action that may declare or set unknown configurations."""
+    file, names, links = launch_file(workspace, path), _names(workspace, path), include_resolver(workspace)
+    if file is None or names is None or not names.complete:
+        return True
+    return any(
+        action.kind == "other" or (action.kind == "include" and links.target(action.target, file) is None)
+        for action in walk_actions(file.actions)
+    )
 
 
 @cached_by_name
@@ -151,6 +173,13 @@ class IncludeTree:
         parameter file by one with further configurations.
         """
         return _fills(self._workspace, file.path)
+
+    def declares_all(self, file: LaunchFile) -> bool:
+        """Return whether all configurations are known that ``file`` and the files above and below it declare or set.
+
+        They are not known if one of these files includes an unknown launch file, or has an action of an unknown class.
+        """
+        return _declares_all(self._workspace, file.path)
 
     def above(self, file: LaunchFile) -> list[FileConfigurations]:
         """Return the configurations of every file that includes ``file``, directly or indirectly."""
