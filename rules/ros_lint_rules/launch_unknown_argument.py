@@ -18,6 +18,7 @@ the configuration that is passed, or a variant of the included file that declare
 Not reported:
 
 - Arguments that launch itself reads when the included file starts a process or a node, such as `emulate_tty` and `launch-prefix`.
+- Arguments that another file uses, if the include chooses between several files.
 - Includes whose file or arguments cannot be determined from the launch files alone, and arguments that are passed under an
   unknown condition, such as what a function finds out about the included file.
 - Arguments passed to a file that includes a launch file from outside the workspace, because that file may use or declare them.
@@ -35,7 +36,7 @@ The severity is info, or warning if the name resembles an argument that is not p
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterable, Iterator
 
 from ros_lint.api import Confidence, Finding, LaunchFile, LaunchValue, Package, Rule, Severity, Span, Workspace, launch, names
 
@@ -43,14 +44,37 @@ from ros_lint.api import Confidence, Finding, LaunchFile, LaunchValue, Package, 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     filled = {name for package in workspace.packages for file in package.parameter_files for name in file.configurations_read}
     for launch_file in launch.run_launch_files(package):
+        by_place: dict[Span, list[launch.PlacedInclude]] = {}
         for include in launch.includes(launch_file.file):
-            yield from _of_include(include, launch_file.file, workspace, filled)
+            by_place.setdefault(include.action.span, []).append(include)
+        for includes in by_place.values():
+            taken = _taken_by_any(includes, launch_file.file, workspace) if len(includes) > 1 else frozenset()
+            if taken is not None:
+                for include in includes:
+                    yield from _of_include(include, launch_file.file, workspace, (filled, taken))
+
+
+def _taken_by_any(includes: Iterable[launch.PlacedInclude], source: LaunchFile, workspace: Workspace) -> frozenset[str] | None:
+    """Return the configurations that at least one of the files accepts between which a single include chooses.
+
+    The result is None if one of the files may accept any configuration.
+    """
+    resolver = launch.include_resolver(workspace)
+    targets = [resolver.target(include.action.target, source) for include in includes]
+    accepted = [resolver.takes(target.file) if target is not None else None for target in targets]
+    known = [takes.known for takes in accepted if takes is not None and takes.complete]
+    return frozenset().union(*known) if len(known) == len(accepted) else None
 
 
 def _of_include(
-    include: launch.PlacedInclude, source: LaunchFile, workspace: Workspace, filled: Container[str]
+    include: launch.PlacedInclude, source: LaunchFile, workspace: Workspace, used: tuple[Container[str], Container[str]]
 ) -> Iterator[Finding]:
-    """Yield the findings of an include. ``filled``: the launch configurations that parameter files of the workspace read."""
+    """Yield the findings of an include.
+
+    ``used`` has the launch configurations that parameter files of the workspace read, and those that another file accepts which
+    the include may choose instead.
+    """
+    filled, elsewhere = used
     action, resolver, leaks = include.action, launch.include_resolver(workspace), launch.scope_leaks(workspace)
     target = resolver.target(action.target, source)
     places = action.argument_spans or [value.span for _, value in action.arguments]
@@ -61,7 +85,7 @@ def _of_include(
     file = f"{target.package.name}/{target.path}"
     sure = not launch.include_tree(workspace).fill(target.file)
     for name, (value, place) in passed.items() if takes.complete else ():
-        if name in takes.known or name in action.conditional_arguments or (name in filled and not sure):
+        if name in takes.known or name in elsewhere or name in action.conditional_arguments or (name in filled and not sure):
             continue
         if not leaks.is_taken_later(name, include, source):
             alone = not leaks.is_taken_above(name, include, source)
