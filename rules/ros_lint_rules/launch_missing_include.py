@@ -34,6 +34,8 @@ Not reported:
 - The launch file checks first whether the package or the file exists (`os.path.exists`), unless it stops if the file is
   missing.
 - The launch file uses the file only if another file does not exist, and that file exists.
+- Several launch configurations form the path, and each of their values belongs to the path of a file that exists, because the
+  values may never occur together.
 - The launch file writes the file itself (`open(path, 'w')`, `xacro.open_output(path)`), or by a command (`xacro ... > path`).
 - Models, displays and parameters that are not installed in every build, and what xacro includes as `optional`.
 
@@ -135,8 +137,11 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
     """Yield findings for missing files that launch files name without the help of launch arguments."""
     by_name = launch.references_by_name(package, ("include", "file"))
     names_at: dict[Span, set[str]] = {}
-    for (_, path), named in by_name.items():
+    paths_at: dict[Span, list[tuple[str, str]]] = {}
+    for (owner, path), named in by_name.items():
         for reference in named:
+            if reference.conditional:  # as is each of several values
+                paths_at.setdefault(reference.span, []).append((owner, path))
             names_at.setdefault(reference.package_span, set()).add(path)
     for (owner, path), named in by_name.items():
         references = [
@@ -150,7 +155,7 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
             references, key=lambda place: (place.from_default, place.kind != "include", not place.surely_read, place.span)
         )
         existing = _files_without(owner, path, best.kind, workspace)
-        if existing is None:
+        if existing is None or (best.conditional and _is_mixed(owner, path, paths_at[best.span], workspace)):
             continue
         written = best.kind == "include" or path.endswith(_WRITTEN) or any(reference.surely_read for reference in references)
         written = written or _is_misspelt(path, existing)
@@ -179,6 +184,22 @@ def _named(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _is_never_used(reference: LaunchReference, workspace: Workspace) -> bool:
     """Return whether a reference is only used if another file is missing, and this other file may exist."""
     return any(_files_without(owner, path, reference.kind, workspace) is None for owner, path in reference.fallback_for)
+
+
+def _is_mixed(owner: str, path: str, paths: Iterable[tuple[str, str]], workspace: Workspace) -> bool:
+    """Return whether a missing file is named only by values that never occur together.
+
+    ``paths`` are the paths that result from all values of the configurations in one text. The result is True if the path has
+    several parts that vary, and if each part is at the same position of a path whose file may exist.
+    """
+    parts = _parts(owner, path)
+    others = [_parts(*other) for other in paths if other != (owner, path) and _files_without(*other, "file", workspace) is None]
+    alike = [other for other in others if len(other) == len(parts)]
+    return bool(alike) and all(any(other[position] == part for other in alike) for position, part in enumerate(parts))
+
+
+def _parts(owner: str, path: str) -> tuple[str, ...]:
+    return owner, *path.split("/")
 
 
 def _look_up(reference: LaunchReference, owner: str, names_at: Mapping[Span, set[str]]) -> Iterator[Related]:
