@@ -24,7 +24,7 @@ from ros_lint.analysis.launch.files import (
 )
 from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, launch_file, substitute
 from ros_lint.analysis.launch.parameter_checks import Undeclared, WrongType, undeclared, unmatched_nodes, wrong_types
-from ros_lint.analysis.launch.parameter_files import NodeParameterFile, given_parameter_files
+from ros_lint.analysis.launch.parameter_files import NodeParameterFile, given_parameter_files, parameter_files_passed_on
 from ros_lint.analysis.launch.remappings import UnusedRemapping, unused_remappings
 from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
 from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes, scope_leaks
@@ -77,6 +77,7 @@ __all__ = [
     "only_installer",
     "package_launch_files",
     "packages_of_every_branch",
+    "parameter_files_passed_on",
     "passed_files",
     "references_by_name",
     "rename_fix",

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from ros_lint.analysis.launch.includes import assigned_configurations, substitute
 from ros_lint.analysis.launch.node_programs import NodeProgram, is_closed, started_program, words_of
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.base.suggestions import similar_names
 from ros_lint.collectors.launch.final_parameters import full_name, matches
-from ros_lint.collectors.symbolic_text import is_node_renaming, is_plain
+from ros_lint.collectors.symbolic_text import is_node_renaming, is_plain, is_settled
 from ros_lint.facts.launch import walk_actions
 
 if TYPE_CHECKING:
@@ -157,6 +158,8 @@ def _names_of_nodes(workspace: Workspace) -> frozenset[str]:
 def _names_in_package(package: Package, _: Workspace) -> frozenset[str]:
     words = {word for code in package.node_code for word in (*code.words, *code.names)}
     for file in package.launch:
-        for action in walk_actions(file.actions):
-            words.update(action.name.texts if action.name is not None else ())
+        named = [action.name for action in walk_actions(file.actions) if action.name is not None]
+        defaults = {} if all(is_settled(text) for name in named for text in name.texts) else assigned_configurations(file)
+        for name in named:
+            words.update(substitute(name, defaults))
     return frozenset(words)

@@ -119,3 +119,21 @@ def _given(workspace: Workspace, path: str) -> tuple[NodeParameterFile, ...]:
                 names, namespaces = substitute(action.name, defaults), substitute(action.namespace, defaults)
                 result.append(NodeParameterFile(action, value, parameters, names, namespaces or ("",)))
     return tuple(result)
+
+
+def parameter_files_passed_on(file: LaunchFile, workspace: Workspace) -> frozenset[str]:
+    """Return the paths of the parameter files that a launch file of the workspace passes to included launch files."""
+    return _passed_on(workspace, file.path)
+
+
+@cached_by_name
+def _passed_on(workspace: Workspace, path: str) -> frozenset[str]:
+    file, links, contents = launch_file(workspace, path), include_resolver(workspace), parameter_contents(workspace)
+    if file is None:
+        return frozenset()
+    includes = [action for action in walk_actions(file.actions) if action.kind == "include" and action.arguments]
+    defaults = assigned_configurations(file) if includes else {}
+    values = (substitute(value, defaults) for action in includes for _, value in action.arguments)
+    places = (links.installed_at(texts[0], file) for texts in values if len(texts) == 1)
+    files = (contents.installed(*place) for place in places if place is not None)
+    return frozenset(parameters.path for parameters in files if parameters is not None)
