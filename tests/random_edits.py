@@ -10,12 +10,15 @@ import os
 import random
 import re
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
+from ros_lint.base.text import to_bytes
 from ros_lint.base.tree import Entry, MemoryTree, Stamp, Tree
 from ros_lint.engine import registry
 from ros_lint.engine.run import find_issues
 from ros_lint.knowledge import Knowledge
+from ros_lint.testing import read_cases
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.model import Workspace
 from ros_lint.workspace.state import DistroData
@@ -25,6 +28,7 @@ Files = dict[str, bytes]
 Result = tuple[dict[str, bytes | None], str]
 """The new contents of files by path (None: deleted), and a description of the edit."""
 
+_FIXTURES = Path(__file__).parent.parent / "fixtures"
 _MOST_BYTES = 1 << 20
 
 
@@ -48,6 +52,14 @@ class EditedTree:
 
     def is_untracked(self, path: str) -> bool:
         return self.now.is_untracked(path)
+
+
+def several_cases(seed: int, count: int = 6) -> Files:
+    """Return the files of some cases of rules, each in one of three folders."""
+    sources = sorted(_FIXTURES.glob("*.md"))
+    chosen = random.Random(seed)
+    cases = [chosen.choice(list(read_cases(chosen.choice(sources)))) for _ in range(count)]
+    return {f"{chosen.choice('abc')}/{path}": to_bytes(text) for case in cases for path, text in case.files.items()}
 
 
 def files_below(folder: str) -> Files:

@@ -3,39 +3,26 @@
 from __future__ import annotations
 
 import os
-import random
-from pathlib import Path
 
 import pytest
 
-from ros_lint.base.text import to_bytes
 from ros_lint.base.tree import MemoryTree
 from ros_lint.knowledge import Knowledge
-from ros_lint.testing import read_cases
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.state import DistroData
 from ros_lint.workspace.target import TargetDistro
 from tests.packages import manifest_text
-from tests.random_edits import Comparison, EditedTree, Files, files_below, first_difference
+from tests.random_edits import Comparison, EditedTree, files_below, first_difference, several_cases
 
-FIXTURES = Path(__file__).parent.parent / "fixtures"
 _FOLDER = os.environ.get("ROS_LINT_EDITED", "")
 _EDITS = int(os.environ.get("ROS_LINT_EDITS", "100"))
 _SEED = int(os.environ.get("ROS_LINT_SEED", "1"))
 
 
-def _several_cases(seed: int) -> Files:
-    """Return the files of some cases of rules, each in a folder of its own."""
-    sources = sorted(FIXTURES.glob("*.md"))
-    chosen = random.Random(seed)
-    cases = [chosen.choice(list(read_cases(chosen.choice(sources)))) for _ in range(6)]
-    return {f"{chosen.choice('abc')}/{path}": to_bytes(text) for case in cases for path, text in case.files.items()}
-
-
 @pytest.mark.parametrize("seed", range(8))
 def test_edits_of_cases_are_checked_incrementally(seed: int) -> None:
     distros = ("jazzy", "humble") if seed % 4 > 1 else ("jazzy",)
-    assert not first_difference(Comparison(_several_cases(seed), *distros, explicit=seed % 2 == 0), seed, 10)
+    assert not first_difference(Comparison(several_cases(seed), *distros, explicit=seed % 2 == 0), seed, 10)
 
 
 def test_a_load_without_sources_between_two_loads_loses_no_change() -> None:

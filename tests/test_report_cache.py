@@ -16,6 +16,7 @@ from ros_lint.base.columns import Codec
 from ros_lint.base.recorded_tree import RecordedTree
 from ros_lint.base.tree import DiskTree
 from ros_lint.cli.main import main
+from ros_lint.engine.kept_findings import KeptFindings
 from ros_lint.engine.report_cache import _CachedReport
 from ros_lint.reporters import FORMATS
 from ros_lint.workspace.cache import layout
@@ -329,6 +330,24 @@ def test_a_change_within_a_tick_of_the_clock_causes_a_run(workspace: Path, monke
     _same_stamp(workspace)
     assert said(workspace) == said(workspace, "--no-cache")
     assert runs.count == 3
+
+
+def test_findings_are_kept_from_the_second_run_on(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    valid: list[int] = []
+    restore = KeptFindings.restore
+
+    def counted(kept: KeptFindings, *args: object) -> None:
+        restore(kept, *args)  # type: ignore[arg-type]
+        valid.append(len(kept.places))
+
+    monkeypatch.setattr(KeptFindings, "restore", counted)
+    source = workspace / "src" / "rover_driver" / "src" / "kept.cpp"
+    for number in range(3):
+        source.write_text(f"#include <tf2_ros/buffer.h>\n// {number}\n")
+        assert said(workspace) == said(workspace, "--no-cache")
+    assert len(valid) == 2
+    assert not valid[0]
+    assert valid[1]
 
 
 def test_contents_are_compared_only_until_the_stamps_are_settled(workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:

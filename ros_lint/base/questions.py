@@ -99,6 +99,25 @@ class Recorder:
             self.reads[found] = None
         return cast("T", found.value)
 
+    def answers(self, scope: Questions) -> Iterator[tuple[Hashable, Cell, object]]:
+        """Yield each question of a scope with its answer and its value."""
+        for question, answer in self._answers.items():
+            if isinstance(question, tuple) and question[0] is scope:
+                yield question[1], answer, answer.value
+
+    def inputs_of(self, answers: Iterable[Cell], numbers: dict[Cell, int], known: dict[Cell, int]) -> int:
+        """Return the inputs that some answers have read, directly or through other answers, as a set of bits.
+
+        ``numbers`` has the number of the bit of each input; inputs without a number get the next one. ``known`` has the results
+        of earlier calls with the same ``numbers``.
+        """
+        result = 0
+        for answer in answers:
+            if answer not in known:
+                _gather(answer, numbers, known)
+            result |= known[answer]
+        return result
+
     def change(self, cells: Iterable[Cell]) -> None:
         """Record that the values of some inputs have changed since they were read."""
         suspects: list[_Answer] = []
@@ -163,6 +182,26 @@ class Recorder:
             reader.state = _OUTDATED
 
 
+def _gather(answer: Cell, numbers: dict[Cell, int], known: dict[Cell, int]) -> None:
+    """Add the inputs that an answer has read, and those of all answers that it has read, to ``known``."""
+    waiting = [answer]
+    while waiting:
+        current = waiting[-1]
+        if not isinstance(current, _Answer):
+            known[current] = 1 << numbers.setdefault(current, len(numbers))
+            waiting.pop()
+            continue
+        missing = [read for read in current.reads if read not in known]
+        if missing:
+            waiting += missing
+            continue
+        bits = 0
+        for read in current.reads:
+            bits |= known[read]
+        known[current] = bits
+        waiting.pop()
+
+
 class _Scope:
     """The answers of a recorder to the questions about one object."""
 
@@ -218,6 +257,24 @@ class RecordedMapping(Mapping[str, V]):
             yield self._all
         elif any(not same(before[key], value) for key, value in values.items()):
             yield self._all
+
+    def cells(self) -> Iterator[tuple[str, Cell]]:
+        """Yield the inputs that have been read. The text names the part of the mapping, for :meth:`part`."""
+        yield from [(f"value {key}", cell) for key, cell in self._cells.items()]
+        yield from [(f"presence {key}", cell) for key, cell in self._presence.items()]
+        yield from (("keys", self._keys), ("all", self._all))
+
+    def part(self, name: str) -> object:
+        """Return the part of the mapping that :meth:`cells` has named."""
+        kind, _, key = name.partition(" ")
+        match kind:
+            case "value":
+                return (self._values[key],) if key in self._values else ()
+            case "presence":
+                return key in self._values
+            case "keys":
+                return list(self._values)
+        return dict(self._values)
 
     def __getitem__(self, key: str) -> V:
         if self._recorder.reads is not None:

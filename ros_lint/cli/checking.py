@@ -15,19 +15,30 @@ if TYPE_CHECKING:
 
     from ros_lint.cli.session import Session
     from ros_lint.cli.settings import Settings
+    from ros_lint.engine.kept_findings import KeptFindings
     from ros_lint.engine.report import Report
     from ros_lint.workspace.model import Workspace
 
 
-def check_session(session: Session) -> Report:
+def check_session(session: Session, kept: KeptFindings | None = None) -> Report:
     """Load the workspace of a session, and return the report about the packages that the settings select.
+
+    ``kept`` has findings of an earlier run, which are used as far as they are valid, and replaced by those of this run.
 
     Raises SelectionError, PluginError, KnowledgeError, and UsageError for package names that do not exist.
     """
     workspaces = session.loader.load_all()
     folders, warnings = selected_folders(session.settings, session.roots, lambda: workspaces)
     patterns = without_effect(session.settings, session.excluder, session.base, session.roots, workspaces[0])
-    return check_workspaces(session, workspaces, folders, (*warnings, *patterns))
+    recorded = session.loader.recorded if kept is not None else None
+    if kept is None or recorded is None:
+        return check_workspaces(session, workspaces, folders, (*warnings, *patterns))
+    recorder, handles = recorded
+    rules = registry.load(session.settings["plugins"])
+    kept.restore(handles, rules)
+    report = check_workspaces(session, workspaces, folders, (*warnings, *patterns))
+    kept.store(recorder, handles, rules)
+    return report
 
 
 def check_workspaces(

@@ -12,6 +12,7 @@ from ros_lint.workspace.cache.file import SOURCES, digest, files_below, state_of
 
 if TYPE_CHECKING:
     from ros_lint.base.recorded_tree import RecordedTree
+    from ros_lint.engine.kept_findings import KeptFindings
     from ros_lint.workspace.cache.file import CacheFile
 
 _MOST_REPORTS = 8
@@ -34,6 +35,8 @@ class ReportCache:
 
     def __init__(self, file: CacheFile, options: str, data: Iterable[str]) -> None:
         self._file = file
+        self.outdated = False
+        """True if :meth:`fetch` has found a report of files that have changed since."""
         if file:
             self._codec: Codec[_CachedReport] = Codec(_CachedReport)
             self._prefix = f"report-{state_of([*files_below(SOURCES), *data], self._codec.schema)}-"
@@ -48,6 +51,7 @@ class ReportCache:
         cached = self._file.read(lambda name: name == self._name, self._codec).get(self._name) if self._file else None
         if cached is None or len(cached.answers) != len(trees):
             return None
+        self.outdated = True
         pairs = list(zip(trees, cached.answers, strict=True))
         try:
             if not all(tree.is_unchanged(answers) for tree, answers in pairs):
@@ -59,6 +63,15 @@ class ReportCache:
             answers = tuple([new or old for new, old in zip(renewed, cached.answers, strict=True)])
             self._write(cached._replace(answers=answers))
         return cached.report
+
+    def findings(self, machine: RecordedTree) -> KeptFindings:
+        """Return the findings of rules that were kept in an earlier run with the same options.
+
+        ``machine`` has the files outside of the workspace.
+        """
+        from ros_lint.engine.kept_findings import PREFIX, KeptFindings  # noqa: PLC0415  (not needed for a cached report)
+
+        return KeptFindings(self._file, f"{PREFIX}{self._name}", machine)
 
     def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
         """Store a report with the state of the files that were read from ``trees`` in this run.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -38,7 +38,7 @@ def run_rules(
     return tuple(sorted(issues, key=sort_key)), tuple([crash for of_rule in results for crash in of_rule.crashes])
 
 
-class _Results(NamedTuple):
+class Results(NamedTuple):
     """The findings of a rule. If the rule crashed in a package, only the findings there before the crash are known."""
 
     issues: tuple[Issue, ...]
@@ -53,17 +53,14 @@ class _Checked(NamedTuple):
     """The names of the packages, and of folders with an unusable package.xml."""
 
 
-def _in_folders(rule: Rule, workspace: Workspace, folders: tuple[str, ...]) -> _Results:
+def _in_folders(rule: Rule, workspace: Workspace, folders: tuple[str, ...]) -> Results:
     """Return the findings of a rule about packages and files below ``folders``."""
     checked = workspace.memo.ask(("checked", folders), partial(_find_checked, workspace, folders))
     if rule.package is None:
-        found = _results(rule, None, workspace)
+        found = results_of(rule, None, workspace)
         return found._replace(issues=tuple([issue for issue in found.issues if _is_about(issue, checked.names, folders)]))
-    results = [
-        workspace.memo.ask((rule.name, rule.package, package.path), partial(_results, rule, package, workspace))
-        for package in checked.packages
-    ]
-    return _Results(
+    results = [results_of(rule, package, workspace) for package in checked.packages]
+    return Results(
         tuple([issue for of_package in results for issue in of_package.issues]),
         tuple([crash for of_package in results for crash in of_package.crashes]),
     )
@@ -75,7 +72,18 @@ def _find_checked(workspace: Workspace, folders: tuple[str, ...]) -> _Checked:
     return _Checked(tuple(packages), frozenset([package.name for package in (*packages, *unusable)]))
 
 
-def _results(rule: Rule, package: Package | None, workspace: Workspace) -> _Results:
+def results_of(
+    rule: Rule, package: Package | None, workspace: Workspace, computed: Callable[[], Results] | None = None
+) -> Results:
+    """Return the results of a rule in ``package``; if ``package`` is None, those of a rule for whole workspaces.
+
+    ``computed`` returns the results if another process has computed them.
+    """
+    question = (rule.name, rule.package, package.path) if package else (rule.name, rule.workspace)
+    return workspace.memo.ask(question, computed or partial(_results, rule, package, workspace))
+
+
+def _results(rule: Rule, package: Package | None, workspace: Workspace) -> Results:
     found: list[Issue] = []
     try:
         found.extend(_issues(rule, package, workspace))
@@ -84,8 +92,8 @@ def _results(rule: Rule, package: Package | None, workspace: Workspace) -> _Resu
     except Exception:
         import traceback  # noqa: PLC0415
 
-        return _Results(tuple(found), (Crash(rule.name, package.name if package else "", traceback.format_exc()),))
-    return _Results(tuple(found))
+        return Results(tuple(found), (Crash(rule.name, package.name if package else "", traceback.format_exc()),))
+    return Results(tuple(found))
 
 
 def _issues(rule: Rule, package: Package | None, workspace: Workspace) -> Iterator[Issue]:

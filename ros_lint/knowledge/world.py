@@ -475,3 +475,22 @@ class World:
 def renew(world: World, members: Iterable[Member], awaited: ExpectedRepositories) -> None:
     """Replace the packages of the workspace and the awaited repositories of a world with a recorder."""
     world._renew(members, awaited)
+
+
+class WorldInputs(NamedTuple):
+    """The inputs of the answers of a world with a recorder."""
+
+    members: RecordedMapping[Member]
+    """The packages of the workspace by name."""
+    others: Mapping[str, tuple[Cell, object]]
+    """All other inputs by name, each with its value."""
+
+
+def inputs_of(world: World) -> WorldInputs:
+    """Return the inputs of the answers of a world with a recorder."""
+    assert world._recorded_members is not None
+    others: dict[str, tuple[Cell, object]] = {
+        "awaited": (world._of_awaited, world._awaited),
+        "reach": (world._of_reach, world._direct),
+    }
+    return WorldInputs(world._recorded_members, others)

@@ -78,27 +78,27 @@ class WorkspaceHandle(Workspace):
 
     def __init__(self, plain: Workspace, recorder: Recorder) -> None:
         self._recorder = recorder
-        self._cells = {name: Cell() for name in _READ}
-        self._now: dict[str, object] = {}
-        self._recorded_names = RecordedMapping[tuple[Package, ...]](recorder)
+        self.cells = {name: Cell() for name in _READ}
+        self.now: dict[str, object] = {}
+        self.recorded_names = RecordedMapping[tuple[Package, ...]](recorder)
         self.world = plain.world
         self.target = plain.target
         self.memo = recorder.scope()
-        self._by_name = self._recorded_names
+        self._by_name = self.recorded_names
 
     def renew(self, values: dict[str, object], packages: tuple[PackageHandle, ...]) -> Iterator[Cell]:
         """Replace the attributes, and yield the cells of those that differ."""
-        yield from list(self._recorded_names.update(packages_by_name(packages)))
+        yield from list(self.recorded_names.update(packages_by_name(packages)))
         for name, value in values.items():
-            if name not in self._now or not same(self._now[name], value):
-                self._now[name] = value
-                yield self._cells[name]
+            if name not in self.now or not same(self.now[name], value):
+                self.now[name] = value
+                yield self.cells[name]
 
 
 def _attribute(name: str) -> property:
     def read(handle: WorkspaceHandle) -> object:
-        handle._recorder.note(handle._cells[name])
-        return handle._now[name]
+        handle._recorder.note(handle.cells[name])
+        return handle.now[name]
 
     return property(read)
 
@@ -112,7 +112,8 @@ class Handles:
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
-        self._packages: dict[tuple[bool, str], PackageHandle] = {}
+        self.packages: dict[tuple[bool, str], PackageHandle] = {}
+        """The handles by path. The first part of the key is True for a package, and False for an unusable package.xml."""
         self._workspaces: dict[str | None, WorkspaceHandle] = {}
 
     def renew(self, plain: Workspace) -> WorkspaceHandle:
@@ -122,15 +123,20 @@ class Handles:
         # The handle of a package that is gone is kept, because remembered answers may still hold it when the package is back.
         for usable, packages in groups:
             for package in packages:
-                handle = self._packages.get((usable, package.path))
+                handle = self.packages.get((usable, package.path))
                 if handle is None:
-                    self._packages[usable, package.path] = PackageHandle(package, self._recorder)
+                    self.packages[usable, package.path] = PackageHandle(package, self._recorder)
                 else:
                     changed += handle.renew(package)
         views = {folder: self._renewed(folder, view, {}, changed) for folder, view in plain._views.items()}
         result = self._renewed(None, plain, views, changed)
         self._recorder.change(changed)
         return result
+
+    @property
+    def workspace(self) -> WorkspaceHandle:
+        """The handle of the whole workspace."""
+        return self._workspaces[None]
 
     def _renewed(
         self, folder: str | None, plain: Workspace, views: Mapping[str, Workspace], changed: list[Cell]
@@ -139,9 +145,9 @@ class Handles:
         if handle is None:
             handle = self._workspaces[folder] = WorkspaceHandle(plain, self._recorder)
         values: dict[str, object] = {name: getattr(plain, name) for name in _READ}
-        packages = tuple([self._packages[True, package.path] for package in plain.packages])
+        packages = tuple([self.packages[True, package.path] for package in plain.packages])
         values["packages"] = packages
-        values["unusable"] = tuple([self._packages[False, package.path] for package in plain.unusable])
+        values["unusable"] = tuple([self.packages[False, package.path] for package in plain.unusable])
         values["_views"] = views
         changed += handle.renew(values, packages)
         return handle

@@ -33,6 +33,7 @@ from ros_lint.workspace.discovery import repository_lists
 from ros_lint.workspace.discovery.discover import DiscoveredPackage, Discovery, Skipped, discover
 from ros_lint.workspace.discovery.ignore_files import Ignores, find_ignores
 from ros_lint.workspace.discovery.named_distros import named_distros
+from ros_lint.workspace.handles import Handles
 from ros_lint.workspace.join import Progress, ReadPackage, unusable_package
 from ros_lint.workspace.model import Package, Workspace
 from ros_lint.workspace.reading import Read, declared_by, unchecked
@@ -127,6 +128,17 @@ class Loader:
     def load_all(self, changed: Mapping[str, bytes] | None = None) -> tuple[Workspace, ...]:
         """Return the workspace for each distribution. ``changed`` has new contents of files, by path."""
         return tuple(self._load(changed or {}, sources=True))
+
+    @property
+    def recorded(self) -> tuple[Recorder, Handles] | None:
+        """The answers of the rules, and the packages as last loaded.
+
+        None unless the loader loads again, for one distribution and a repository without several workspaces.
+        """
+        handles = self._states[0].handles if len(self._states) == 1 else None
+        if self._recorder is None or handles is None or handles.workspace.now["_views"]:
+            return None
+        return self._recorder, handles
 
     def _load(self, changed: Mapping[str, bytes], sources: bool) -> Iterator[Workspace]:
         """Yield the workspace for each distribution. ``changed`` has new contents of files, by path."""

@@ -153,10 +153,12 @@ def _report(request: Request, progress: Progress) -> Report:
     recorded = [RecordedTree(disk) for disk in disks]
     if cached := cache.fetch(recorded):
         return cached
-    session = open_session(request, progress.update, *(recorded if cache else disks))
+    # The findings are kept only if the workspace has been checked before, because this makes a run slower.
+    kept = cache.findings(recorded[1]) if cache.outdated else None
+    session = open_session(request, progress.update, *(recorded if cache else disks), again=kept is not None)
     from ros_lint.cli.checking import check_session  # noqa: PLC0415  (not needed for a cached report)
 
-    report = check_session(session)
+    report = check_session(session, kept)
     cache.store(recorded, report)
     return report
 
