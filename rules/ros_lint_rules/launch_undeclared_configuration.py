@@ -24,6 +24,8 @@ Not reported:
   may include them.
 - Configurations of a file if it, or a file above or below it in the tree of includes, includes an unknown launch file or has an
   action of an unknown class, unless the name is nearly that of a declared argument.
+- Configurations of a file that is included by a file with required arguments, if nothing includes the latter: a launch file
+  outside of the workspace probably includes it.
 - Configurations read with a default, if any launch file of the workspace sets or passes them, or if the name differs from the
   declared one in a number.
 

@@ -131,7 +131,19 @@ def _related(workspace: Workspace, path: str) -> set[str]:
 
 @cached_by_name
 def _declares_all(workspace: Workspace, path: str) -> bool:
-    return not any(_may_declare_any(workspace, related) for related in sorted(_related(workspace, path)))
+    if any(_may_declare_any(workspace, related) for related in sorted(_related(workspace, path))):
+        return False
+    return not any(_is_for_callers(workspace, above) for above in _above(workspace, path))
+
+
+@cached_by_name
+def _is_for_callers(workspace: Workspace, path: str) -> bool:
+    """Return whether launch files outside of the workspace probably include a launch file, so that they may set configurations.
+
+    It requires arguments, but no launch file of the workspace includes it.
+    """
+    file = launch_file(workspace, path)
+    return file is not None and not _above(workspace, path) and bool(include_resolver(workspace).takes(file).required)
 
 
 @cached_by_name
@@ -177,7 +189,8 @@ class IncludeTree:
     def declares_all(self, file: LaunchFile) -> bool:
         """Return whether all configurations are known that ``file`` and the files above and below it declare or set.
 
-        They are not known if one of these files includes an unknown launch file, or has an action of an unknown class.
+        They are not known if one of these files includes an unknown launch file, or has an action of an unknown class. Nor are
+        they if a file above requires arguments, but nothing in the workspace includes it, because a file outside may do so.
         """
         return _declares_all(self._workspace, file.path)
 
