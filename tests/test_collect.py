@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import concurrent.futures
-import os
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 import pytest
 
 from ros_lint.base.tree import DiskTree
+from ros_lint.workspace import collect
 from ros_lint.workspace.cache.facts import FactCache
 from ros_lint.workspace.cache.file import NO_CACHE
 from ros_lint.workspace.collect import collect_all
@@ -44,13 +44,13 @@ class Pool:
         (64, 2000, 200, 10),  # of 20 files each
         (64, 2000, 6, 1),
         (200, 200, 2000, 61),
-        (None, 8, 200, 1),
+        (1, 8, 200, 1),
     ],
 )
 def test_at_most_one_process_per_core_is_used(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cores: int | None, jobs: int, files: int, processes: int
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cores: int, jobs: int, files: int, processes: int
 ) -> None:
-    monkeypatch.setattr(os, "cpu_count", lambda: cores)
+    monkeypatch.setattr(collect, "available_cores", lambda: cores)
     monkeypatch.setattr(concurrent.futures, "ProcessPoolExecutor", Pool)
     monkeypatch.setattr(Pool, "requested", [])
     names = [f"{number}.cpp" for number in range(files)]

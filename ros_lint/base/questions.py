@@ -30,11 +30,10 @@ class Memo:
         self._answers: dict[Hashable, Any] = {}
 
     def ask(self, question: Hashable, answer: Callable[[], T]) -> T:
-        try:
-            return cast("T", self._answers[question])
-        except KeyError:
-            value = self._answers[question] = answer()
-            return value
+        # Not in an exception handler: the traceback of an exception in ``answer`` would begin with the missing key.
+        if question not in self._answers:
+            self._answers[question] = answer()
+        return cast("T", self._answers[question])
 
 
 class Cell:

@@ -6,7 +6,7 @@ import os
 import time
 from array import array
 from collections.abc import Iterable
-from itertools import chain
+from itertools import chain, islice
 from typing import Literal, NamedTuple
 
 from ros_lint.base.tree import DiskTree, Entry, Stamp, Tree
@@ -40,6 +40,14 @@ class Answers(NamedTuple):
     """Failed queries: path, kind of the query, and errno of the error."""
 
 
+class Queries(NamedTuple):
+    """Some queries of a run with the answers, to be sent to another process."""
+
+    answers: dict[tuple[Query, str], TreeAnswer]
+    digests: dict[str, bytes]
+    steady: bool
+
+
 class RecordedTree:
     """A disk tree that records all queries and answers. ``steady`` is False if a file changed during the run."""
 
@@ -51,6 +59,7 @@ class RecordedTree:
         self._digests: dict[str, bytes] = {}
         self._known: dict[tuple[Query, str], TreeAnswer] = {}
         self._renewed: dict[str, Stamp] = {}
+        self._taken = (0, 0)
 
     @property
     def answers(self) -> Answers:
@@ -135,6 +144,22 @@ class RecordedTree:
             self.steady &= self._digests.setdefault(path, digest) == digest
         else:
             self._note("read", path, self._ask("read", path))
+
+    def new_queries(self) -> Queries:
+        """Return the queries of this run since the last call."""
+        answers, digests = self._taken
+        self._taken = len(self._answers), len(self._digests)
+        return Queries(
+            dict(islice(self._answers.items(), answers, None)), dict(islice(self._digests.items(), digests, None)), self.steady
+        )
+
+    def add(self, queries: Queries) -> None:
+        """Record the queries of another process of this run."""
+        for (query, path), answer in queries.answers.items():
+            self._note(query, path, answer)
+        for path, digest in queries.digests.items():
+            self.note_contents(path, digest)
+        self.steady &= queries.steady
 
     def list(self, path: str) -> list[Entry]:
         answer = self._answer("list", path)

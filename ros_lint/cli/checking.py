@@ -53,7 +53,8 @@ def check_workspaces(
     are added to those of the session. Raises SelectionError, PluginError and KnowledgeError.
     """
     rules = registry.load(session.settings["plugins"])
-    context = ReportContext(rules, session.knowledge.date, tuple(folders), (*session.warnings, *warnings))
+    jobs = session.settings["jobs"]
+    context = ReportContext(rules, session.knowledge.date, tuple(folders), (*session.warnings, *warnings), jobs)
     return check(workspaces, session.loader.suppressions(), selection_of(session.settings), context)
 
 

@@ -116,7 +116,9 @@ OPTIONS: tuple[CliOption, ...] = (
         in_file=False,
         loads_code=True,
     ),
-    CliOption("jobs", "number", 0, "processes that read files, at most one per core; 0: by workspace size", metavar="N"),
+    CliOption(
+        "jobs", "number", 0, "processes that read files and run rules, at most one per core; 0: by workspace size", metavar="N"
+    ),
     CliOption("cache", "flag", True, "cache results in the user's cache folder"),
     CliOption("format", "word", "text", "output format", choices=FORMATS, in_file=False),
     CliOption(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from ros_lint import __version__
 from ros_lint.base.paths import is_below_any
+from ros_lint.engine.parallel import run_in_processes
 from ros_lint.engine.registry import plugin_of
 from ros_lint.engine.report import OFF, BlindSpot, HiddenCount, Report
 from ros_lint.engine.run import find_issues
@@ -37,6 +38,8 @@ class ReportContext(NamedTuple):
     """
     warnings: tuple[str, ...]
     """Warnings about the command line and the settings."""
+    jobs: int = 1
+    """The number of processes that run rules, at most one for each core; 0 means that it depends on the number of packages."""
 
 
 def check(
@@ -48,6 +51,7 @@ def check(
     not be analysed, are combined.
     """
     suppressions = tuple(suppressions)
+    run_in_processes(workspaces, (*selection.rules, *selection.off), context.folders, context.jobs)
     checked = find_issues(workspaces, selection.rules, suppressions, context.rules, context.folders)
     shown, hidden = show(checked.issues, selection)
     of_others = find_issues(workspaces, selection.off, suppressions, context.rules, context.folders).issues

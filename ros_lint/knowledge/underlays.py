@@ -111,10 +111,14 @@ class Installed:
 
 
 class Underlay:
-    """An install prefix, or the install prefixes of all packages of one workspace. ``packages`` are sorted by name."""
+    """An install prefix, or the install prefixes of all packages of one workspace. ``packages`` are sorted by name.
 
-    def __init__(self, root: str, prefixes: Sequence[InstallPrefix], distro: str = "") -> None:
+    Their files are read from ``tree`` when they are first needed.
+    """
+
+    def __init__(self, root: str, prefixes: Sequence[InstallPrefix], tree: Tree, distro: str = "") -> None:
         self.root = root
+        self.tree = tree
         self._prefixes = tuple(prefixes)
         packages: dict[str, Installed] = {}
         for prefix in prefixes:
@@ -167,7 +171,7 @@ def in_tree(tree: Tree, root: str, distro: str = "") -> Underlay:
 
     Raises UnderlayError if ``root`` is none of the folders that :func:`read` accepts.
     """
-    return Underlay(root, tuple(_prefixes(tree, root)), distro)
+    return Underlay(root, tuple(_prefixes(tree, root)), tree, distro)
 
 
 def _prefixes(tree: Tree, root: str) -> Iterator[InstallPrefix]:

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import errno
 import gc
-import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from ros_lint.base.processes import available_cores
 from ros_lint.base.recorded_tree import NOT_READ, RecordedTree, content_digest
 from ros_lint.base.text import Text, file_start, read
 from ros_lint.base.tree import DiskTree, Tree
@@ -148,7 +148,7 @@ def collect_all(
 
 def _processes(jobs: int, files: int) -> int:
     """Return the number of processes for ``files`` files, at most one for each core; 0 or 1 means to start no process."""
-    cores = min(os.cpu_count() or 1, _MAX_PROCESSES)
+    cores = min(available_cores(), _MAX_PROCESSES)
     return min(jobs, cores) if jobs else min(cores, 8, files // _FILES_PER_PROCESS)
 
 
