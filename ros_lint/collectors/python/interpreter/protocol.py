@@ -92,6 +92,8 @@ class Interpreter(Recorder, ABC):
     def __init__(self, library: Library, budget: Budget) -> None:
         super().__init__(budget)
         self.library = library
+        self.called: dict[ast.Try, frozenset[str]] = {}
+        """The names of the functions that the body of a try statement calls, for the statements interpreted so far."""
 
     @abstractmethod
     def under(self, *conditions: LaunchCondition) -> AbstractContextManager[None]:

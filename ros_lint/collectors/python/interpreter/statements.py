@@ -101,14 +101,22 @@ def _with(machine: Interpreter, node: ast.With | ast.AsyncWith, frame: Frame) ->
 
 def _try(machine: Interpreter, node: ast.Try, frame: Frame) -> int:
     before = machine.conditions
+    called = machine.called.get(node)
+    if called is None:
+        called = machine.called[node] = _called(node.body)
     missing = next((handler for handler in node.handlers if catches_missing_package(handler)), None)
-    if missing is not None and _looks_up(node.body) and not gives_up(missing.body, everywhere=not machine.conditions):
+    if missing is not None and not called.isdisjoint(LOOK_UPS) and not gives_up(missing.body, everywhere=not machine.conditions):
         # The package is optional, because the file handles the case that it is missing.
         there = LaunchCondition((presence(machine.another()),), None)
         signal = either(machine, [*node.body, *node.orelse], missing.body, there, frame)
         return _finally(machine, node, frame, before) or signal
     absent = next((handler for handler in node.handlers if catches_missing_file(handler)), None)
-    if absent is not None and _opens(node.body) and _assigns(absent.body) and not gives_up(absent.body, everywhere=False):
+    if (
+        absent is not None
+        and not called.isdisjoint(_OPENERS)
+        and _assigns(absent.body)
+        and not gives_up(absent.body, everywhere=False)
+    ):
         exists = LaunchCondition((machine.another(),), None)  # the machine that runs the launch file may have the file
         machine.guarded += 1
         try:
@@ -155,18 +163,14 @@ def _finally(machine: Interpreter, node: ast.Try, frame: Frame, before: Conditio
 _OPENERS = frozenset({"open", "read_bytes", "read_text"})
 
 
-def _opens(body: Sequence[ast.stmt]) -> bool:
-    """Return whether a block contains a call that opens a file."""
-    return any(isinstance(node, ast.Call) and callee(node) in _OPENERS for statement in body for node in ast.walk(statement))
+def _called(body: Sequence[ast.stmt]) -> frozenset[str]:
+    """Return the names of the functions and methods that a block calls."""
+    return frozenset([callee(node) for statement in body for node in ast.walk(statement) if isinstance(node, ast.Call)])
 
 
 def _assigns(body: Sequence[ast.stmt]) -> bool:
     """Return whether a statement of a block assigns a value that the code after the block can use."""
     return any(isinstance(statement, ast.Assign | ast.AnnAssign | ast.AugAssign) for statement in body)
-
-
-def _looks_up(body: Sequence[ast.stmt]) -> bool:
-    return any(isinstance(node, ast.Call) and callee(node) in LOOK_UPS for statement in body for node in ast.walk(statement))
 
 
 def _return(machine: Interpreter, node: ast.Return, frame: Frame) -> int:

@@ -408,11 +408,15 @@ def union(values: Iterable[Value]) -> Value:
     The result is Unknown if there are too many alternatives, or none.
     """
     results: list[Guarded] = []
+    known: dict[Conditions, list[Value] | None] = {}  # None for conditions that never hold together
     for value in values:
         for alternative in alternatives(value):
-            if len(alternative.conditions) > 1 and not are_consistent(alternative.conditions):
-                continue
-            if not any(same(alternative.value, known.value) and alternative.conditions == known.conditions for known in results):
+            conditions = alternative.conditions
+            if conditions not in known:
+                known[conditions] = [] if len(conditions) < 2 or are_consistent(conditions) else None
+            others = known[conditions]
+            if others is not None and not any(same(alternative.value, other) for other in others):
+                others.append(alternative.value)
                 results.append(alternative)
         if len(results) > MOST:
             return Unknown("one of too many values")
