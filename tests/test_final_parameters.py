@@ -19,6 +19,7 @@ from ros_lint.collectors.launch.final_parameters import (
 )
 from ros_lint.collectors.resources.parameter_files import collect
 from ros_lint.collectors.resources.parameter_values import type_of
+from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.sources import ParameterFile
 from tests.packages import manifest_text
 from tests.test_launch_command import ask, xml
@@ -243,6 +244,8 @@ REWRITTEN = "b:\n  ros__parameters: {x: 1, y: {x: 2, z: 3}}\na:\n  ros__paramete
         (FilledChange("rewrite", root=("",)), "/a", {"x": "4"}),
         (FilledChange("rewrite", keys=(("a", ("c",)),)), "/c", {"x": "4"}),
         (FilledChange("rewrite", (("x", ("9",)),), certain=False), "/a", {"x": "4 | 9"}),
+        (FilledChange("exchange", (("4", ("9",)), ("2", ("8",)))), "/a", {"x": "9"}),
+        (FilledChange("exchange", (("1", ("9",)), ("x", ("8",)))), "/b", {"x": "9", "y.x": "2", "y.z": "3"}),
         (FilledChange("replace", (("a", ("c",)),)), "/c", {"x": "4"}),
         (FilledChange("replace", (("4", ("5", "6")),)), "/a", {"x": "5 | 6"}),
     ],
@@ -252,6 +255,12 @@ def test_changes_of_files(change: FilledChange, node: str, expected: dict[str, s
     assert (
         values(final({"1": REWRITTEN}, given, NodeNames((node[1:].rpartition("/")[2],), (node.rpartition("/")[0],)))) == expected
     )
+
+
+def test_a_list_with_an_exchanged_value_is_not_known() -> None:
+    files = {"1": "/**:\n  ros__parameters: {a: [OLD, x], b: [y], c: OLDER}\n"}
+    given = [GivenParameter("", ("1",), changes=(FilledChange("exchange", (("OLD", ("new",)),)),))]
+    assert values(final(files, given, NodeNames(("n",), ("",)))) == {"a": UNKNOWN, "b": "[y]", "c": "OLDER"}
 
 
 def test_substitutions_in_files_are_performed_only_if_allowed() -> None:
@@ -275,6 +284,25 @@ def test_the_command_takes_the_name_that_the_code_gives_to_the_node() -> None:
             "install(TARGETS program DESTINATION lib/p)\ninstall(DIRECTORY launch DESTINATION share/p)\nament_package()\n"
         ),
         "p/a.cpp": 'auto node = rclcpp::Node("driver");\n',
+        "p/launch/p.yaml": "driver:\n  ros__parameters: {a: 1}\nother:\n  ros__parameters: {b: 2}\n",
+        "p/launch/a.launch.xml": xml('<node pkg="p" exec="program"><param from="$(find-pkg-share p)/launch/p.yaml"/></node>'),
+    }
+    started = json.loads(ask(files, "p", "a.launch.xml", form="json")[0])["starts"]
+    assert [(item["final"], item["final_unknown"]) for item in started] == [
+        ([{"name": "a", "values": ["1"], "certain": True, "path": "p/launch/p.yaml", "line": 2, "column": 21}], [])
+    ]
+
+
+def test_the_command_takes_the_name_that_a_library_of_the_program_gives_to_the_node() -> None:
+    files = {
+        "p/package.xml": manifest_text("p"),
+        "p/CMakeLists.txt": (
+            "project(p)\nfind_package(ament_cmake REQUIRED)\nadd_library(core a.cpp)\nadd_executable(program main.cpp)\n"
+            "target_link_libraries(program core)\n"
+            "install(TARGETS program DESTINATION lib/p)\ninstall(DIRECTORY launch DESTINATION share/p)\nament_package()\n"
+        ),
+        "p/a.cpp": 'auto node = rclcpp::Node("driver");\n',
+        "p/main.cpp": "int main() {}\n",
         "p/launch/p.yaml": "driver:\n  ros__parameters: {a: 1}\nother:\n  ros__parameters: {b: 2}\n",
         "p/launch/a.launch.xml": xml('<node pkg="p" exec="program"><param from="$(find-pkg-share p)/launch/p.yaml"/></node>'),
     }

@@ -50,15 +50,16 @@ class LaunchValue(NamedTuple):
 class FileChange(NamedTuple):
     """A change of the contents of a parameter file before a node reads them, made by launch."""
 
-    kind: Literal["rewrite", "replace", "substitute"]
+    kind: Literal["rewrite", "exchange", "replace", "substitute"]
     """Kind of the change.
 
     * ``rewrite``: values of parameters and keys are replaced (RewrittenYaml of nav2_common).
+    * ``exchange``: values that equal a text are replaced (``value_rewrites`` of RewrittenYaml).
     * ``replace``: texts are replaced (ReplaceString of nav2_common).
     * ``substitute``: substitutions such as ``$(var name)`` are performed (``allow_substs``).
     """
     values: tuple[tuple[str, LaunchValue], ...] = ()
-    """New values by the name of the parameter, or new texts by the old text."""
+    """New values by the name of the parameter, or new values or texts by the old one."""
     keys: tuple[tuple[str, LaunchValue], ...] = ()
     """New keys by the old key."""
     root: LaunchValue | None = None

@@ -60,6 +60,39 @@ def node_program(workspace: Workspace, package: str, target: str) -> NodeProgram
     return _programs(owners[0], workspace).get(target) if len(owners) == 1 else None
 
 
+def node_name(workspace: Workspace, package: str, target: str) -> str:
+    """Return the name that a program or component of the workspace gives to its node, "" if it is unknown.
+
+    If the sources of a program name no node, a library of the same package that it links may name exactly one.
+    """
+    owners = workspace.by_name.get(package, ())
+    if len(owners) != 1:
+        return ""
+    program = _programs(owners[0], workspace).get(target)
+    if program is not None and any(code.names for code in program.code):
+        return program.name
+    return _names_in_libraries(owners[0], workspace).get(target, "")
+
+
+@cached_by_package
+def _names_in_libraries(package: Package, _: Workspace) -> Mapping[str, str]:
+    """Return the node names in the libraries of a package, by the programs that link them. A program has one node name."""
+    names = {package.relative(code.path): code.names for code in package.node_code if code.names}
+    products = package.built.products
+    targets = {target.name: target for target in products.targets}
+    result: dict[str, str] = {}
+    for provided in products.installs if names else ():
+        program = provided.path.removeprefix(f"lib/{package.name}/")
+        target = targets.get(provided.target)
+        if program == provided.path or "/" in program or target is None:
+            continue
+        libraries = [targets[name] for name, _ in target.links if name in targets]
+        found = {name for library in libraries for source in library.sources for name in names.get(source, ())}
+        if len(found) == 1:
+            result[program] = next(iter(found))
+    return result
+
+
 @cached_by_package
 def _programs(package: Package, _: Workspace) -> Mapping[str, NodeProgram]:
     """Return the programs and components of a package by name."""

@@ -9,7 +9,7 @@ row of any node (``/**``) and then the row of the component, file by file.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise, product
 from typing import TYPE_CHECKING, Final, NamedTuple
@@ -283,6 +283,8 @@ def _changed(rows: list[_Row], change: FilledChange, substitute: Callable[[str],
     match change.kind:
         case "rewrite":
             result = _rewritten(rows, change)
+        case "exchange":
+            result = [_exchanged(row, dict(change.values)) for row in rows]
         case "replace":
             result = [_replaced(row, change.values) for row in rows]
         case _:
@@ -325,6 +327,15 @@ def _rewritten(rows: Iterable[_Row], change: FilledChange) -> list[_Row]:
     if root:
         result = [row._replace(node=f"{root}{'' if root.endswith('/') else '/'}{row.node}") for row in result]
     return result
+
+
+def _exchanged(row: _Row, values: Mapping[str, Texts]) -> _Row:
+    """Return a row in which a value that equals a text is replaced; a list that may contain such a value is not known."""
+    texts: dict[str, None] = {}
+    for text in row.texts:
+        is_list = text.startswith("[") and any(old in text for old in values)
+        texts.update(dict.fromkeys((UNKNOWN,) if is_list else values.get(text, (text,))))
+    return row._replace(texts=tuple(texts))
 
 
 def _replaced(row: _Row, values: Iterable[tuple[str, Texts]]) -> _Row:

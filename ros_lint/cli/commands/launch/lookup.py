@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.launch.includes import AcceptedArguments, include_resolver
-from ros_lint.analysis.launch.node_programs import node_program
+from ros_lint.analysis.launch.node_programs import node_name
 from ros_lint.analysis.launch.parameter_files import parameter_contents
 from ros_lint.base.paths import resolve, strip_folder
 from ros_lint.base.suggestions import did_you_mean, similar_names
@@ -239,8 +239,7 @@ class LaunchFileLookup:
 
     def node_name(self, package: str, target: str) -> str:
         """Return the name that a program or component of the workspace gives to its node, "" if it is unknown."""
-        program = node_program(self._workspace, package, target)
-        return program.name if program is not None else ""
+        return node_name(self._workspace, package, target)
 
     def _read_parameters(self, path: str) -> ParameterFile | None:
         place = installed_place(path)

@@ -28,8 +28,7 @@ def file_changes(walker: Walker, value: Value, node: ast.expr, source: Source) -
             if len(choices) > 1 and any(isinstance(choice, LaunchObject) and choice.name in _SOURCES for choice in choices):
                 changes.append(FileChange("rewrite", complete=False))
             break
-        change = _change(walker, launch_object, node, source)
-        changes += [change] if change is not None else []
+        changes += reversed(_changes(walker, launch_object, node, source))
         value = launch_object.get(0, _SOURCES[launch_object.name])
     return tuple(reversed(changes))
 
@@ -38,26 +37,31 @@ _SOURCES: Mapping[str, str] = {"ParameterFile": "param_file", "ReplaceString": "
 """The keyword for the changed file, by class."""
 
 
-def _change(walker: Walker, launch_object: LaunchObject, node: ast.expr, source: Source) -> FileChange | None:
+def _changes(walker: Walker, launch_object: LaunchObject, node: ast.expr, source: Source) -> list[FileChange]:
+    """Return the changes that one object makes, in order."""
     match launch_object.name:
         case "ParameterFile":
             allowed = launch_object.get(-1, "allow_substs")
-            return FileChange("substitute", complete=isinstance(allowed, bool)) if allowed not in (None, False) else None
+            return [FileChange("substitute", complete=isinstance(allowed, bool))] if allowed not in (None, False) else []
         case "ReplaceString":
             values = _pairs(walker, launch_object.get(1, "replacements"), node, source)
             condition = launch_object.get(-1, "condition")
             conditions = conditions_of(condition) if condition is not None else ()
-            return FileChange("replace", values or (), complete=values is not None, conditions=conditions)
+            return [FileChange("replace", values or (), complete=values is not None, conditions=conditions)]
     values = _pairs(walker, launch_object.get(1, "param_rewrites"), node, source)
     keys = _pairs(walker, launch_object.get(3, "key_rewrites"), node, source)
     root = launch_object.get(2, "root_key")
-    known = values is not None and keys is not None and launch_object.get(-1, "value_rewrites") is None
-    return FileChange(
+    known = values is not None and keys is not None
+    rewritten = FileChange(
         "rewrite",
         values or (),
         keys or (),
         walker.text(root, node, source) if root is not None else None,
-        known and not launch_object.may_hide("param_rewrites", "root_key", "key_rewrites"),
+        known and not launch_object.may_hide("param_rewrites", "root_key", "key_rewrites", "value_rewrites"),
+    )
+    exchanged = _pairs(walker, launch_object.get(-1, "value_rewrites"), node, source)
+    return (
+        [rewritten, FileChange("exchange", exchanged or (), complete=exchanged is not None)] if exchanged != () else [rewritten]
     )
 
 
