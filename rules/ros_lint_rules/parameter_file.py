@@ -30,6 +30,7 @@ Not reported:
 - File names and node names that the launch file does not determine, even with the defaults of its arguments.
 - Files that no package of the workspace installs, and files that are rewritten, as by `RewrittenYaml`.
 - A file with parameters for one of the nodes to which the launch file passes it.
+- A file with parameters of other nodes, if the node also receives a file with its own: the process may have several nodes.
 - A file that the launch file also passes to an included launch file, because that file may pass it to the right node.
 - A file with parameters of several nodes, if another launch file passes it to one of them.
 - A file with parameters of other nodes, if a file of the workspace cannot be read: that file may pass it to the right node.
@@ -58,14 +59,17 @@ def check(workspace: Workspace) -> Iterator[Finding]:
         for launch_file in launch.package_launch_files(package):
             rewrites = any(_rewrites(name) for name, _ in launch_file.file.imports)
             by_file: dict[str, list[launch.NodeParameterFile]] = {}
+            served: set[Span] = set()
             for passed in launch.given_parameter_files(launch_file.file, workspace):
                 by_file.setdefault(passed.file.path, []).append(passed)
+                if passed.file.nodes and _may_be_of(passed, rewrites):
+                    served.add(passed.action.span)
             passed_on = launch.parameter_files_passed_on(launch_file.file, workspace) if by_file else frozenset()
             for path, uses in by_file.items():
                 all_uses.setdefault(path, []).extend(uses)
                 if not rewrites:
                     unchanged.setdefault(path, []).extend(use for use in uses if not use.value.changes)
-                if uses[0].file.nodes and (any(_may_be_of(passed, rewrites) for passed in uses) or path in passed_on):
+                if uses[0].file.nodes and (any(passed.action.span in served for passed in uses) or path in passed_on):
                     used.add(path)
                 else:
                     unmatched.append((package, uses))
