@@ -38,11 +38,24 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator
 
-from ros_lint.api import Confidence, Finding, LaunchFile, LaunchValue, Package, Rule, Severity, Span, Workspace, launch, names
+from ros_lint.api import (
+    Confidence,
+    Finding,
+    LaunchFile,
+    LaunchValue,
+    Package,
+    Rule,
+    Severity,
+    Span,
+    Workspace,
+    cached_by_workspace,
+    launch,
+    names,
+)
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
-    filled = {name for package in workspace.packages for file in package.parameter_files for name in file.configurations_read}
+    filled = _filled(workspace)
     for launch_file in launch.run_launch_files(package):
         by_place: dict[Span, list[launch.PlacedInclude]] = {}
         for include in launch.includes(launch_file.file):
@@ -52,6 +65,13 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             if taken is not None:
                 for include in includes:
                     yield from _of_include(include, launch_file.file, workspace, (filled, taken))
+
+
+@cached_by_workspace
+def _filled(workspace: Workspace) -> frozenset[str]:
+    """Return the launch configurations that parameter files of the workspace read."""
+    files = (file for package in workspace.packages for file in package.parameter_files)
+    return frozenset([name for file in files for name in file.configurations_read])
 
 
 def _taken_by_any(includes: Iterable[launch.PlacedInclude], source: LaunchFile, workspace: Workspace) -> frozenset[str] | None:
