@@ -98,11 +98,10 @@ class Recorder:
             self.reads[found] = None
         return cast("T", found.value)
 
-    def answers(self, scope: Questions) -> Iterator[tuple[Hashable, Cell, object]]:
-        """Yield each question of a scope with its answer and its value."""
-        for question, answer in self._answers.items():
-            if isinstance(question, tuple) and question[0] is scope:
-                yield question[1], answer, answer.value
+    def answered(self, scope: Questions, question: Hashable) -> tuple[Cell, object] | None:
+        """Return the answer to a question of a scope, and its value; None if the question was not asked."""
+        answer = self._answers.get((scope, question))
+        return (answer, answer.value) if answer is not None else None
 
     def inputs_of(self, answers: Iterable[Cell], numbers: dict[Cell, int], known: dict[Cell, int]) -> int:
         """Return the inputs that some answers have read, directly or through other answers, as a set of bits.

@@ -7,15 +7,16 @@ loaded workspace (:mod:`ros_lint.workspace.inputs`), so that an edit without an 
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.finding import Finding
 from ros_lint.base.columns import Codec
 from ros_lint.base.recorded_tree import Answers
 from ros_lint.engine.report import Issue
-from ros_lint.engine.run import Results, results_of
+from ros_lint.engine.run import Results, question_of, results_of
 from ros_lint.workspace.inputs import DIGEST_SIZE, Inputs
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from ros_lint.base.recorded_tree import RecordedTree
     from ros_lint.workspace.cache.file import CacheFile
     from ros_lint.workspace.handles import Handles
+    from ros_lint.workspace.model import Package
 
 
 PREFIX = "findings-"
@@ -100,42 +102,67 @@ class KeptFindings:
         for place in self._valid.values():
             for name, owner, finding in place.found:
                 found[place.place, name].append(Issue(by_name[name], owner, finding))
-        for rule in by_name.values():
-            packages = workspace.packages if rule.package is not None else (None,)
-            for checked in packages:
-                issues = found.get((checked.path if checked is not None else f"{_RULE}{rule.name}", rule.name))
-                if issues is not None:
-                    results_of(rule, checked, workspace, partial(Results, tuple(issues)))
+        packages = {package.path: package for package in workspace.packages}
+        for at, rule, package in _places(by_name.values(), packages):
+            if at in self._valid:
+                results_of(rule, package, workspace, partial(Results, tuple(found[at, rule.name])))
 
     def store(self, recorder: Recorder, handles: Handles, rules: Sequence[Rule]) -> None:
         """Keep the findings of this run, without those of a place where a rule has crashed or has read an input without a name.
 
         Nothing is kept if a file outside of the workspace changed during the run.
         """
-        if not self._machine.steady:
+        workspace = handles.workspace
+        checks = [rule for rule in rules if rule.suppressions is None]
+        answers: dict[str, list[tuple[Cell, Results]]] = {}
+        for place, rule, package in _places(checks, {package.path: package for package in workspace.packages}):
+            question = question_of(rule, package.path if package is not None else None)
+            answer = recorder.answered(workspace.memo, question) if place not in self._valid else None
+            if answer is not None and isinstance(answer[1], Results):
+                answers.setdefault(place, []).append((answer[0], answer[1]))
+        known = self._kept.places if self._kept is not None else ()
+        if not self._machine.steady or (not answers and len(self._valid) == len(known)):
             return
         inputs = self._inputs or Inputs(handles)
-        names = inputs.names()
-        numbers: dict[Cell, int] = {}
-        known: dict[Cell, int] = {}
         listed: dict[str, int] = {}
-        places: list[_KeptPlace] = []
-        for place in self._valid.values():
-            kept_names = self._kept.inputs if self._kept is not None else ()
-            reads = [listed.setdefault(kept_names[number], len(listed)) for number in _numbers(place.reads)]
-            places.append(place._replace(reads=_packed(reads)))
-        for path, answers in _by_place(recorder, handles, rules).items():
-            cells = _members(recorder.inputs_of([answer for answer, _ in answers], numbers, known), numbers)
-            results = [results for _, results in answers]
-            if path in self._valid or any(of_rule.crashes for of_rule in results) or not all(cell in names for cell in cells):
-                continue
-            reads = [listed.setdefault(names[cell], len(listed)) for cell in cells]
-            issues = [issue for of_rule in results for issue in of_rule.issues]
-            found = tuple([_KeptFinding(issue.rule.name, issue.package, issue.finding) for issue in issues])
-            places.append(_KeptPlace(path, _packed(reads), found))
-        rule_names = tuple(sorted(rule.name for rule in rules if rule.suppressions is None))
-        kept = _Kept(tuple(listed), b"".join(map(inputs.digest, listed)), tuple(places), self._machine.answers, rule_names)
+        places = [*self._renumbered(listed), *_read_places(answers, inputs.names(), recorder, listed)]
+        digests = b"".join(map(inputs.digest, listed))
+        rule_names = tuple(sorted(rule.name for rule in checks))
+        kept = _Kept(tuple(listed), digests, tuple(places), self._machine.answers, rule_names)
         self._file.write({self._name: kept}, self._codec, lambda names: [name for name in names if name.startswith(PREFIX)])
+
+    def _renumbered(self, listed: dict[str, int]) -> Iterator[_KeptPlace]:
+        """Yield the valid places with the numbers of ``listed``, to which their inputs are added."""
+        names = self._kept.inputs if self._kept is not None else ()
+        used = frozenset(chain.from_iterable(_numbers(place.reads) for place in self._valid.values()))
+        numbers = [listed.setdefault(name, len(listed)) if number in used else 0 for number, name in enumerate(names)]
+        for place in self._valid.values():
+            yield place._replace(reads=_packed(map(numbers.__getitem__, _numbers(place.reads))))
+
+
+def _places(rules: Iterable[Rule], packages: Mapping[str, Package]) -> Iterator[tuple[str, Rule, Package | None]]:
+    """Yield each place of findings with the rule and the package; a rule for workspaces has a place of its own."""
+    for rule in rules:
+        if rule.package is not None:
+            yield from ((path, rule, package) for path, package in packages.items())
+        else:
+            yield f"{_RULE}{rule.name}", rule, None
+
+
+def _read_places(
+    answers: Mapping[str, Sequence[tuple[Cell, Results]]], names: Mapping[Cell, str], recorder: Recorder, listed: dict[str, int]
+) -> Iterator[_KeptPlace]:
+    """Yield the places of the results that were computed in this run. The names of their inputs are added to ``listed``."""
+    numbers: dict[Cell, int] = {}
+    known: dict[Cell, int] = {}
+    for path, of_place in answers.items():
+        cells = _members(recorder.inputs_of([answer for answer, _ in of_place], numbers, known), numbers)
+        if any(results.crashes for _, results in of_place) or not all(cell in names for cell in cells):
+            continue
+        reads = [listed.setdefault(names[cell], len(listed)) for cell in cells]
+        issues = [issue for _, results in of_place for issue in results.issues]
+        found = tuple([_KeptFinding(issue.rule.name, issue.package, issue.finding) for issue in issues])
+        yield _KeptPlace(path, _packed(reads), found)
 
 
 def _is_consistent(kept: _Kept) -> bool:
@@ -147,24 +174,6 @@ def _is_consistent(kept: _Kept) -> bool:
     found = {finding.rule for place in kept.places for finding in place.found}
     sizes = len(kept.digests) == len(kept.inputs) * DIGEST_SIZE and max(reads, default=-1) < len(kept.inputs)
     return sizes and found <= set(kept.rules)
-
-
-def _by_place(recorder: Recorder, handles: Handles, rules: Sequence[Rule]) -> dict[str, list[tuple[Cell, Results]]]:
-    """Return the results of the rules by place, each with the answer that has them.
-
-    A place is the path of a package, or ``//`` and the name of a rule for workspaces.
-    """
-    checks = {(rule.name, rule.package or rule.workspace) for rule in rules}
-    result: dict[str, list[tuple[Cell, Results]]] = {}
-    for question, answer, value in recorder.answers(handles.workspace.memo):
-        match question:
-            case (str(name), check, *rest) if isinstance(value, Results) and (name, check) in checks:
-                match rest:
-                    case []:
-                        result.setdefault(f"{_RULE}{name}", []).append((answer, value))
-                    case [str(path)]:
-                        result.setdefault(path, []).append((answer, value))
-    return result
 
 
 def _packed(numbers: Iterable[int]) -> bytes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -79,8 +79,13 @@ def results_of(
 
     ``computed`` returns the results if another process has computed them.
     """
-    question = (rule.name, rule.package, package.path) if package else (rule.name, rule.workspace)
+    question = question_of(rule, package.path if package else None)
     return workspace.memo.ask(question, computed or partial(_results, rule, package, workspace))
+
+
+def question_of(rule: Rule, path: str | None) -> Hashable:
+    """Return the question for the results of a rule in the package at ``path``; None is the whole workspace."""
+    return (rule.name, rule.package, path) if path is not None else (rule.name, rule.workspace)
 
 
 def _results(rule: Rule, package: Package | None, workspace: Workspace) -> Results:

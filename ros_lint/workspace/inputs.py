@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
@@ -81,10 +82,23 @@ def _without_handles(value: object) -> object:
     return value
 
 
+_SET = re.compile(r"frozenset\(\{([^{}]*)\}\)")
+_LITERAL = re.compile(r"'[^']*'|\"[^\"]*\"")
+
+
 def _text(value: object) -> str:
-    """Return a text that is the same for equal values, and different for others."""
+    """Return a text that is the same for equal values in each process, and different for others."""
     text = repr(value)
-    return text if "frozenset(" not in text else repr(_ordered(value))
+    if "frozenset({" not in text:
+        return text
+    ordered = _SET.sub(_in_order, text)
+    return ordered if "frozenset({" not in ordered else repr(_ordered(value))
+
+
+def _in_order(found: re.Match[str]) -> str:
+    """Return the text of a set of plain texts in order, that of another set unchanged."""
+    items = found[1].split(", ")
+    return f"frozenset({sorted(items)})" if all(map(_LITERAL.fullmatch, items)) else found[0]
 
 
 def _ordered(value: Any) -> Any:
