@@ -10,6 +10,18 @@ from ros_lint.workspace.model import Package, Workspace
 
 T = TypeVar("T")
 
+CACHED: dict[str, Callable[..., object]] = {}
+"""The decorated functions of the imported modules, by module and name."""
+
+NAMES: dict[object, str] = {}
+"""The module and name of each decorated function, by the function without the decorator, which is in the questions."""
+
+
+def _note(function: Callable[..., object], cached: Callable[..., object]) -> None:
+    name = f"{function.__module__}:{function.__qualname__}"
+    CACHED[name] = cached
+    NAMES[function] = name
+
 
 def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspace], T]:
     """Cache the results of a function with a workspace as argument: a decorator for pure functions that several rules call."""
@@ -18,6 +30,7 @@ def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspa
     def cached_function(workspace: Workspace) -> T:
         return workspace.memo.ask(function, lambda: function(workspace))
 
+    _note(function, cached_function)
     return cached_function
 
 
@@ -29,6 +42,7 @@ def cached_by_package(function: Callable[[Package, Workspace], T]) -> Callable[[
         # The package is stored, too, so that its id stays unique.
         return workspace.memo.ask((function, id(package)), lambda: (package, function(package, workspace)))[1]
 
+    _note(function, cached_function)
     return cached_function
 
 
@@ -39,4 +53,5 @@ def cached_by_name(function: Callable[[Workspace, str], T]) -> Callable[[Workspa
     def cached_function(workspace: Workspace, name: str) -> T:
         return workspace.memo.ask((function, name), lambda: function(workspace, name))
 
+    _note(function, cached_function)
     return cached_function

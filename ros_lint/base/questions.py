@@ -7,7 +7,7 @@ different. An answer that is computed again with an equal result stops the chang
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping
 from typing import Any, Protocol, TypeVar, cast
 
 T = TypeVar("T")
@@ -103,18 +103,11 @@ class Recorder:
         answer = self._answers.get((scope, question))
         return (answer, answer.value) if answer is not None else None
 
-    def inputs_of(self, answers: Iterable[Cell], numbers: dict[Cell, int], known: dict[Cell, int]) -> int:
-        """Return the inputs that some answers have read, directly or through other answers, as a set of bits.
-
-        ``numbers`` has the number of the bit of each input; inputs without a number get the next one. ``known`` has the results
-        of earlier calls with the same ``numbers``.
-        """
-        result = 0
-        for answer in answers:
-            if answer not in known:
-                _gather(answer, numbers, known)
-            result |= known[answer]
-        return result
+    def answers(self, scope: Questions) -> Iterator[tuple[Any, Cell, object]]:
+        """Yield each question of a scope, its answer and its value."""
+        for question, answer in self._answers.items():
+            if isinstance(question, tuple) and question[0] is scope:
+                yield question[1], answer, answer.value
 
     def change(self, cells: Iterable[Cell]) -> None:
         """Record that the values of some inputs have changed since they were read."""
@@ -180,24 +173,48 @@ class Recorder:
             reader.state = _OUTDATED
 
 
-def _gather(answer: Cell, numbers: dict[Cell, int], known: dict[Cell, int]) -> None:
-    """Add the inputs that an answer has read, and those of all answers that it has read, to ``known``."""
-    waiting = [answer]
-    while waiting:
-        current = waiting[-1]
-        if not isinstance(current, _Answer):
-            known[current] = 1 << numbers.setdefault(current, len(numbers))
-            waiting.pop()
-            continue
-        missing = [read for read in current.reads if read not in known]
-        if missing:
-            waiting += missing
-            continue
+class ReadSets:
+    """Finds what answers have read: inputs and other answers of a collection, directly or through further answers."""
+
+    def __init__(self, named: Container[Cell]) -> None:
+        self._named = named
+        self._members: list[Cell] = []
+        self._known: dict[Cell, int] = {}
+        """The members of the collection below each answer outside of it, as a set of bits."""
+
+    def of(self, answers: Iterable[Cell]) -> list[Cell]:
+        """Return the members of the collection that some answers have read, and all inputs that are not in the collection."""
         bits = 0
-        for read in current.reads:
-            bits |= known[read]
-        known[current] = bits
-        waiting.pop()
+        for answer in answers:
+            for read in answer.reads if isinstance(answer, _Answer) else ():
+                bits |= self._below(read)
+        digits = bin(bits)[:1:-1]
+        found: list[Cell] = []
+        number = digits.find("1")
+        while number >= 0:
+            found.append(self._members[number])
+            number = digits.find("1", number + 1)
+        return found
+
+    def _below(self, start: Cell) -> int:
+        waiting = [start]
+        while waiting and start not in self._known:
+            current = waiting[-1]
+            if current in self._known:
+                pass
+            elif current in self._named or not isinstance(current, _Answer):
+                self._known[current] = 1 << len(self._members)
+                self._members.append(current)
+            elif missing := [read for read in current.reads if read not in self._known]:
+                waiting += missing
+                continue
+            else:
+                bits = 0
+                for read in current.reads:
+                    bits |= self._known[read]
+                self._known[current] = bits
+            waiting.pop()
+        return self._known[start]
 
 
 class _Scope:

@@ -7,17 +7,18 @@ loaded workspace (:mod:`ros_lint.workspace.inputs`), so that an edit without an 
 from __future__ import annotations
 
 from array import array
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.analysis.finding import Finding
 from ros_lint.base.columns import Codec
+from ros_lint.base.questions import ReadSets
 from ros_lint.base.recorded_tree import Answers
 from ros_lint.engine.report import Issue
 from ros_lint.engine.run import Results, question_of, results_of
-from ros_lint.workspace.inputs import DIGEST_SIZE, Inputs
+from ros_lint.engine.shared_answers import PREFIX, SharedAnswers
+from ros_lint.workspace.inputs import Inputs, digest
 
 if TYPE_CHECKING:
     from ros_lint.analysis.rule import Rule
@@ -28,17 +29,30 @@ if TYPE_CHECKING:
     from ros_lint.workspace.model import Package
 
 
-PREFIX = "findings-"
+RECORD = "findings-"
 """Prefix of the names of records with findings."""
 
 _RULE = "//"
 """Prefix of the place of the findings of a rule for workspaces: its name follows. No path of a package begins with it."""
 
 
+_UNKNOWN = ""
+"""Name of an input that cannot be named. What has read it is never valid."""
+
+
 class _KeptFinding(NamedTuple):
     rule: str
     package: str
     finding: Finding
+
+
+class _KeptInput(NamedTuple):
+    """A part of the workspace, or an answer that rules share, that was read."""
+
+    name: str
+    digest: bytes
+    reads: bytes
+    """For an answer the numbers of what it has read, otherwise nothing."""
 
 
 class _KeptPlace(NamedTuple):
@@ -52,10 +66,8 @@ class _KeptPlace(NamedTuple):
 
 
 class _Kept(NamedTuple):
-    inputs: tuple[str, ...]
-    """Names of inputs. The number of an input is its index."""
-    digests: bytes
-    """The digests of the inputs."""
+    inputs: tuple[_KeptInput, ...]
+    """What was read. The number of an input is its index."""
     places: tuple[_KeptPlace, ...]
     machine: Answers
     """The state of the files outside of the workspace that were read, such as those of an underlay."""
@@ -78,7 +90,7 @@ class KeptFindings:
         self._valid: dict[str, _KeptPlace] = {}
         kept = file.read(lambda found: found == name, self._codec).get(name)
         self._kept = kept if kept is not None and _is_consistent(kept) and machine.is_unchanged(kept.machine) else None
-        self._inputs: Inputs | None = None
+        self._current: _Current | None = None
 
     @property
     def places(self) -> frozenset[str]:
@@ -91,12 +103,8 @@ class KeptFindings:
         by_name = {rule.name: rule for rule in rules if rule.suppressions is None}
         if kept is None or kept.rules != tuple(sorted(by_name)):
             return
-        inputs = self._inputs = Inputs(handles)
-        changed = {
-            number
-            for number, name in enumerate(kept.inputs)
-            if inputs.digest(name) != kept.digests[number * DIGEST_SIZE : (number + 1) * DIGEST_SIZE]
-        }
+        self._current = _Current(handles)
+        changed = self._current.changed(kept.inputs)
         self._valid = {place.place: place for place in kept.places if changed.isdisjoint(_numbers(place.reads))}
         found: dict[tuple[str, str], list[Issue]] = {(path, rule): [] for path in self._valid for rule in by_name}
         for place in self._valid.values():
@@ -123,21 +131,93 @@ class KeptFindings:
         known = self._kept.places if self._kept is not None else ()
         if not self._machine.steady or (not answers and len(self._valid) == len(known)):
             return
-        inputs = self._inputs or Inputs(handles)
-        listed: dict[str, int] = {}
-        places = [*self._renumbered(listed), *_read_places(answers, inputs.names(), recorder, listed)]
-        digests = b"".join(map(inputs.digest, listed))
-        rule_names = tuple(sorted(rule.name for rule in checks))
-        kept = _Kept(tuple(listed), digests, tuple(places), self._machine.answers, rule_names)
-        self._file.write({self._name: kept}, self._codec, lambda names: [name for name in names if name.startswith(PREFIX)])
+        current = self._current or _Current(handles)
+        names = current.names(recorder)
+        sets = ReadSets(names)
+        places = [(place.place, self._names(place.reads), place.found) for place in self._valid.values()]
+        places += _read_places(answers, names, sets)
+        cells = {name: cell for cell, name in names.items() if name.startswith(PREFIX)}
+        kept_reads = {kept.name: self._names(kept.reads) for kept in (self._kept.inputs if self._kept is not None else ())}
 
-    def _renumbered(self, listed: dict[str, int]) -> Iterator[_KeptPlace]:
-        """Yield the valid places with the numbers of ``listed``, to which their inputs are added."""
-        names = self._kept.inputs if self._kept is not None else ()
-        used = frozenset(chain.from_iterable(_numbers(place.reads) for place in self._valid.values()))
-        numbers = [listed.setdefault(name, len(listed)) if number in used else 0 for number, name in enumerate(names)]
-        for place in self._valid.values():
-            yield place._replace(reads=_packed(map(numbers.__getitem__, _numbers(place.reads))))
+        def reads_of(name: str) -> list[str]:
+            below = sets.of([cells[name]]) if name in cells else None
+            return kept_reads.get(name, []) if below is None else [names.get(cell, _UNKNOWN) for cell in below]
+
+        numbers: dict[str, int] = {}
+        inputs: list[_KeptInput] = []
+        for name, reads in _in_order([name for _, of_place, _ in places for name in of_place], reads_of):
+            numbers[name] = len(inputs)
+            inputs.append(_KeptInput(name, current.digest(name), _packed(map(numbers.__getitem__, reads))))
+        found = [_KeptPlace(place, _packed(map(numbers.__getitem__, of_place)), issues) for place, of_place, issues in places]
+        rule_names = tuple(sorted(rule.name for rule in checks))
+        record = _Kept(tuple(inputs), tuple(found), self._machine.answers, rule_names)
+        self._file.write({self._name: record}, self._codec, lambda names: [name for name in names if name.startswith(RECORD)])
+
+    def _names(self, reads: bytes) -> list[str]:
+        inputs = self._kept.inputs if self._kept is not None else ()
+        return [inputs[number].name for number in _numbers(reads)]
+
+
+class _Current:
+    """The values in the loaded workspace of what can be read."""
+
+    def __init__(self, handles: Handles) -> None:
+        self._inputs = Inputs(handles)
+        self._answers = SharedAnswers(handles)
+        self._digests: dict[str, bytes] = {}
+
+    def names(self, recorder: Recorder) -> dict[Cell, str]:
+        return {**self._inputs.names(), **dict(self._answers.named(recorder))}
+
+    def digest(self, name: str) -> bytes:
+        """Return the digest of an input or of a shared answer; b"" if it does not exist."""
+        if name not in self._digests:
+            self._digests[name] = self._compute(name)
+        return self._digests[name]
+
+    def changed(self, inputs: Sequence[_KeptInput]) -> set[int]:
+        """Return the numbers of the inputs with another value than in an earlier run.
+
+        An answer is computed again only if something that it has read has another value.
+        """
+        result: set[int] = set()
+        for number, (name, before, reads) in enumerate(inputs):
+            below = _numbers(reads)
+            if below and before and result.isdisjoint(below):
+                self._digests[name] = before
+            elif not before or self.digest(name) != before:
+                result.add(number)
+        return result
+
+    def _compute(self, name: str) -> bytes:
+        if name == _UNKNOWN:
+            return b""
+        if not name.startswith(PREFIX):
+            return self._inputs.digest(name)
+        try:
+            return digest(self._answers.value(name))
+        except LookupError:
+            return b""
+
+
+def _in_order(names: Iterable[str], reads_of: Callable[[str], list[str]]) -> Iterator[tuple[str, list[str]]]:
+    """Yield each name, and each name that it has read directly or not, with what it has read.
+
+    A name comes after what it has read.
+    """
+    reads: dict[str, list[str]] = {}
+    finished: set[str] = set()
+    waiting = list(names)
+    while waiting:
+        name = waiting[-1]
+        if name not in reads:
+            reads[name] = reads_of(name)
+            waiting += [read for read in reads[name] if read not in finished]
+            continue
+        waiting.pop()
+        if name not in finished:
+            finished.add(name)
+            yield name, reads[name]
 
 
 def _places(rules: Iterable[Rule], packages: Mapping[str, Package]) -> Iterator[tuple[str, Rule, Package | None]]:
@@ -150,30 +230,29 @@ def _places(rules: Iterable[Rule], packages: Mapping[str, Package]) -> Iterator[
 
 
 def _read_places(
-    answers: Mapping[str, Sequence[tuple[Cell, Results]]], names: Mapping[Cell, str], recorder: Recorder, listed: dict[str, int]
-) -> Iterator[_KeptPlace]:
-    """Yield the places of the results that were computed in this run. The names of their inputs are added to ``listed``."""
-    numbers: dict[Cell, int] = {}
-    known: dict[Cell, int] = {}
-    for path, of_place in answers.items():
-        cells = _members(recorder.inputs_of([answer for answer, _ in of_place], numbers, known), numbers)
+    answers: Mapping[str, Sequence[tuple[Cell, Results]]], names: Mapping[Cell, str], sets: ReadSets
+) -> Iterator[tuple[str, list[str], tuple[_KeptFinding, ...]]]:
+    """Yield the places of the results that were computed in this run, with the names of what was read and the findings."""
+    for place, of_place in answers.items():
+        cells = sets.of(answer for answer, _ in of_place)
         if any(results.crashes for _, results in of_place) or not all(cell in names for cell in cells):
             continue
-        reads = [listed.setdefault(names[cell], len(listed)) for cell in cells]
         issues = [issue for _, results in of_place for issue in results.issues]
         found = tuple([_KeptFinding(issue.rule.name, issue.package, issue.finding) for issue in issues])
-        yield _KeptPlace(path, _packed(reads), found)
+        yield place, [names[cell] for cell in cells], found
 
 
 def _is_consistent(kept: _Kept) -> bool:
-    """Return whether all numbers and names in a record exist. They may not if the file was manipulated."""
+    """Return whether all numbers and names in a record exist, and inputs come after what they have read.
+
+    This may not be so in a manipulated file.
+    """
     try:
-        reads = {number for place in kept.places for number in _numbers(place.reads)}
+        in_order = all(max(_numbers(entry.reads), default=-1) < number for number, entry in enumerate(kept.inputs))
+        known = all(max(_numbers(place.reads), default=-1) < len(kept.inputs) for place in kept.places)
     except ValueError:  # not an array of 32-bit integers
         return False
-    found = {finding.rule for place in kept.places for finding in place.found}
-    sizes = len(kept.digests) == len(kept.inputs) * DIGEST_SIZE and max(reads, default=-1) < len(kept.inputs)
-    return sizes and found <= set(kept.rules)
+    return in_order and known and {finding.rule for place in kept.places for finding in place.found} <= set(kept.rules)
 
 
 def _packed(numbers: Iterable[int]) -> bytes:
@@ -184,8 +263,3 @@ def _numbers(reads: bytes) -> array[int]:
     numbers = array("I")
     numbers.frombytes(reads)
     return numbers
-
-
-def _members(bits: int, numbers: Mapping[Cell, int]) -> list[Cell]:
-    digits = bin(bits)[:1:-1]
-    return [cell for cell, number in numbers.items() if number < len(digits) and digits[number] == "1"]

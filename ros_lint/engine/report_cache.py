@@ -69,9 +69,9 @@ class ReportCache:
 
         ``machine`` has the files outside of the workspace.
         """
-        from ros_lint.engine.kept_findings import PREFIX, KeptFindings  # noqa: PLC0415  (not needed for a cached report)
+        from ros_lint.engine.kept_findings import RECORD, KeptFindings  # noqa: PLC0415  (not needed for a cached report)
 
-        return KeptFindings(self._file, f"{PREFIX}{self._name}", machine)
+        return KeptFindings(self._file, f"{RECORD}{self._name}", machine)
 
     def store(self, trees: Sequence[RecordedTree], report: Report) -> None:
         """Store a report with the state of the files that were read from ``trees`` in this run.

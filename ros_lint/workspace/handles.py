@@ -48,6 +48,10 @@ class PackageHandle(Package):
             self.recorder.note(cell)
         return iter(self.now)
 
+    def __repr__(self) -> str:
+        """Return a text that is the same in each run. The fields of the package are inputs of their own."""
+        return f"PackageHandle({self.now.path!r})"
+
     def __eq__(self, other: object) -> bool:
         return self is other
 

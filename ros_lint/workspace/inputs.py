@@ -8,10 +8,10 @@ from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.knowledge.world import inputs_of
-from ros_lint.workspace.handles import Handles, PackageHandle
 
 if TYPE_CHECKING:
     from ros_lint.base.questions import Cell, RecordedMapping
+    from ros_lint.workspace.handles import Handles
 
 DIGEST_SIZE = 16
 """Number of bytes of the digest of an input."""
@@ -52,8 +52,7 @@ class Inputs:
         """
         if name not in self._digests:
             value = next(self._values(name), _NOTHING)
-            data = _text(value).encode("utf-8", "backslashreplace")
-            self._digests[name] = _ABSENT if value is _NOTHING else blake2b(data, digest_size=DIGEST_SIZE).digest()
+            self._digests[name] = _ABSENT if value is _NOTHING else digest(value)
         return self._digests[name]
 
     def _values(self, name: str) -> Iterator[object]:
@@ -64,26 +63,20 @@ class Inputs:
             if handle is not None:
                 yield handle.now[int(index)]
         elif kind == "workspace":
-            yield _without_handles(self._workspace.now.get(rest))
+            yield self._workspace.now.get(rest)
         elif kind in self._mappings:
-            yield _without_handles(self._mappings[kind].part(rest))
+            yield self._mappings[kind].part(rest)
         elif rest in self._world:
             yield self._world[rest][1]
 
 
-def _without_handles(value: object) -> object:
-    """Return a value with the path of each package in place of the package, whose fields are inputs of their own."""
-    if isinstance(value, PackageHandle):
-        return value.now.path
-    if type(value) in (tuple, list):
-        return tuple(map(_without_handles, value))  # type: ignore[call-overload]
-    if type(value) is dict:
-        return {key: _without_handles(inner) for key, inner in value.items()}
-    return value
-
-
 _SET = re.compile(r"frozenset\(\{([^{}]*)\}\)")
 _LITERAL = re.compile(r"'[^']*'|\"[^\"]*\"")
+
+
+def digest(value: object) -> bytes:
+    """Return a digest of a frozen value: the same for equal values in each process, and different for others."""
+    return blake2b(_text(value).encode("utf-8", "backslashreplace"), digest_size=DIGEST_SIZE).digest()
 
 
 def _text(value: object) -> str:
