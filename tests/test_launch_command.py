@@ -165,6 +165,13 @@ def test_the_argument_that_decides_a_condition_is_named() -> None:
     assert "open because" not in ask(files, "p", "a.launch.xml", "sim:=true")[0]
 
 
+def test_tags_of_other_packages_are_listed() -> None:
+    files = package("p", {"launch/a.launch.xml": xml('<gz_server world_sdf_file="a.sdf"/>\n<log message="x"/>')})
+    output, _, code = ask(files, "p", "a.launch.xml")
+    assert "not analysed:\n  p/launch/a.launch.xml:2:2: what <gz_server> starts is not known\n\n" in output
+    assert code == 0
+
+
 def test_actions_of_unknown_classes_are_listed() -> None:
     python = """
 from launch import LaunchDescription

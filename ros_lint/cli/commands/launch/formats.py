@@ -82,7 +82,8 @@ def _unknown(expanded: ExpandedFile) -> list[tuple[str, Span]]:
     places = [(opaque.reason, opaque.span) for file in files for opaque in file.opaque]
     actions = walk_actions(action for file in files for action in file.actions)
     names = ((action.name.texts[0], action.span) for action in actions if action.kind == "other" and action.name is not None)
-    places += [(f"what {name}() starts is not known", span) for name, span in names if name not in ACTIONS]
+    calls = ((name if name.startswith("<") else f"{name}()", span) for name, span in names if name not in ACTIONS)
+    places += [(f"what {call} starts is not known", span) for call, span in calls]
     return list(dict.fromkeys(places))
 
 

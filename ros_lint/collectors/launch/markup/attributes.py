@@ -60,7 +60,8 @@ class Reader:
         reader = self._readers.get(entity.tag)
         if reader is None:
             if entity.tag in EXTENSIONS:
-                return []  # its attributes are defined by another package
+                # Another package defines its attributes and what it starts.
+                return [LaunchAction("other", entity.span, name=LaunchValue((f"<{entity.tag}>",), entity.span))]
             raise Rejected("unknown-tag", f"there is no tag <{entity.tag}>", entity.span, ROS_1.get(f"<{entity.tag}>", ""))
         if entity.tag in _NEWER_TAGS:
             self.note_newer(f"<{entity.tag}>", entity.span)
