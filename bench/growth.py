@@ -99,6 +99,24 @@ def source(name: str, text: str) -> Files:
     return cmake(f"add_executable(b src/{name})\n", files={f"src/{name}": text})
 
 
+def _node(body: str) -> Files:
+    """Return a package with a node, and a launch file that passes config/b.yaml to it."""
+    program = (
+        '#include <rclcpp/rclcpp.hpp>\nclass B : public rclcpp::Node {\npublic:\n  B() : Node("b") {\n'
+        f"{body}  }}\n}};\nint main(int c, char ** v) {{ rclcpp::init(c, v); rclcpp::spin(std::make_shared<B>()); }}\n"
+    )
+    return cmake(
+        "find_package(rclcpp REQUIRED)\nadd_executable(b src/b.cpp)\ninstall(TARGETS b DESTINATION lib/a)\n"
+        "install(DIRECTORY launch config DESTINATION share/a)\n",
+        "  <depend>rclcpp</depend>\n",
+        {
+            "src/b.cpp": program,
+            "launch/a.launch.xml": '<launch><node pkg="a" exec="b" name="b">'
+            '<param from="$(find-pkg-share a)/config/b.yaml"/></node></launch>',
+        },
+    )
+
+
 _NODE = "Node(package='b', executable='c%d')"
 _ARGUMENT = "DeclareLaunchArgument('a%d', default_value='b')"
 _INCLUDE = "IncludeLaunchDescription(PythonLaunchDescriptionSource('a%d.launch.py'))"
@@ -205,6 +223,13 @@ LADDERS: dict[str, Callable[[int], Files]] = {
         "- arg: {name: a-1, default: b}\n" + lines(n, "- arg: {name: a%d, default: $(var a%f)}")
     ),
     "launch.yaml: includes": lambda n: yaml(lines(n, "- include: {file: $(find-pkg-share a)/launch/b%d.launch.xml}")),
+    "launch.yaml: groups": lambda n: yaml(
+        lines(n, "- group: [{push-ros-namespace: {namespace: b%d}}, {node: {pkg: b, exec: c}}]")
+    ),
+    "launch.yaml: parameters": lambda n: yaml(
+        "- node:\n    pkg: b\n    exec: c\n    param:\n" + lines(n, "    - {name: b%d, value: %d}")
+    ),
+    "launch.yaml: conditions": lambda n: yaml(lines(n, "- node: {pkg: b, exec: c%d, if: $(var u%d)}")),
     # CMake
     "CMake: variables": lambda n: cmake(lines(n, "set(a%d b)")),
     "CMake: a list": lambda n: cmake(lines(n, "list(APPEND a b%d)")),
@@ -255,6 +280,58 @@ LADDERS: dict[str, Callable[[int], Files]] = {
     ),
     "CMake: stars": lambda n: cmake(f'if("{"x" * n}" MATCHES "x*x*x*x*y")\n  set(a b)\nendif()\n'),
     "CMake: alternatives": lambda n: cmake(f'if("{"a" * n}" MATCHES "(a|aa)+b")\n  set(a b)\nendif()\n'),
+    # names that resemble others
+    "similar names: launch arguments": lambda n: xml(
+        lines(n, '<arg name="argument_%d" default="b"/>', '<node pkg="b" exec="$(var argumnet_%d)"/>')
+    ),
+    "similar names: arguments of an include": lambda n: {
+        **xml(
+            '<include file="$(find-pkg-share a)/launch/b.launch.xml">\n'
+            + lines(n, '<arg name="argumnet_%d" value="c"/>')
+            + "</include>\n"
+        ),
+        "launch/b.launch.xml": f"<launch>{lines(n, '<arg name=%qargument_%d%q default=%qb%q/>'.replace('%q', chr(34)))}</launch>",
+    },
+    "similar names: launch files": lambda n: {
+        **xml(lines(n // 10, '<include file="$(find-pkg-share a)/launch/inclde_%d.launch.xml"/>')),
+        **{f"launch/include_{i}.launch.xml": "<launch/>" for i in range(n // 10)},
+    },
+    "similar names: variables": lambda n: cmake(
+        lines(n, "set(variable_%d b)") + f"install(FILES {words(n, '${varaible_%d}')} DESTINATION share/a)\n"
+    ),
+    "similar names: targets": lambda n: cmake(
+        lines(n, "add_library(library_%d src/b.cpp)", "install(TARGETS libary_%d DESTINATION lib)"), files={"src/b.cpp": ""}
+    ),
+    "similar names: files": lambda n: cmake(
+        lines(n // 10, "install(FILES config/fiel_%d.yaml DESTINATION share/a)"),
+        files={f"config/file_{i}.yaml": "" for i in range(n // 10)},
+    ),
+    "similar names: parameters": lambda n: {
+        **_node(lines(n, 'declare_parameter("parameter_%d", 1);')),
+        "config/b.yaml": "b:\n  ros__parameters:\n" + lines(n, "    paramter_%d: 1"),
+    },
+    "similar names: components": lambda n: {
+        **source("b.cpp", lines(n, "RCLCPP_COMPONENTS_REGISTER_NODE(b::Component%d)")),
+        "launch/a.launch.py": f"{_IMPORTS}from launch_ros.actions import ComposableNodeContainer\n"
+        "from launch_ros.descriptions import ComposableNode\ndef generate_launch_description():\n"
+        "    return LaunchDescription([ComposableNodeContainer(package='rclcpp_components', executable='c', name='c', namespace='',\n"
+        f"        composable_node_descriptions=[{words(n, 'ComposableNode(package=%qa%q, plugin=%qb::Componnet%d%q)', ', ')}])])\n".replace(
+            "%q", "'"
+        ),
+    },
+    "similar names: entry points": lambda n: {
+        **setup(f"entry_points={{'console_scripts': [{words(n, repr('b%d = a.b:functoin_%d'), ', ')}]}}"),
+        "a/b.py": lines(n, "def function_%d():", "    pass"),
+    },
+    "similar names: messages": lambda n: cmake(
+        f"rosidl_generate_interfaces(a {words(n // 10, 'msg/Message%d.msg')} msg/B.msg)\n",
+        files={
+            **{f"msg/Message{i}.msg": "" for i in range(n // 10)},
+            "msg/B.msg": lines(n // 10, "Messgae%d b%d"),
+        },
+    ),
+    "similar names: dependencies": lambda n: cmake("", lines(n, "  <depend>rclcpp_%dcomponents</depend>")),
+    "similar names: settings": lambda n: {**cmake(""), "ros-lint.toml": lines(n, "ignore%d = 1")},
     # setup.py
     "setup.py: entry points": lambda n: setup(
         f"entry_points={{'console_scripts': [{words(n, repr('b%d = a.b%d:main'), ', ')}]}}"
@@ -273,6 +350,12 @@ LADDERS: dict[str, Callable[[int], Files]] = {
     "setup.py: calls of one helper": lambda n: setup(
         "data_files=x", "x = []\ndef f(a):\n    return ('share/a', [a])\n" + lines(n, "x.append(f('c%d'))")
     ),
+    "setup.cfg: entry points": lambda n: {
+        **setup(""),
+        "setup.cfg": "[options.entry_points]\nconsole_scripts =\n" + lines(n, "    b%d = a.b%d:main"),
+    },
+    "setup.cfg: options": lambda n: {**setup(""), "setup.cfg": "[metadata]\n" + lines(n, "b%d = c")},
+    "setup.cfg: sections": lambda n: {**setup(""), "setup.cfg": lines(n, "[b%d]", "c = d")},
     # package.xml
     "package.xml: unknown depends": lambda n: cmake("", lines(n, "  <depend>b%d</depend>")),
     "package.xml: the same depends": lambda n: cmake("", lines(n, "  <depend>b</depend>")),
@@ -296,6 +379,13 @@ LADDERS: dict[str, Callable[[int], Files]] = {
     "Python: look-ups": lambda n: {**setup(""), "a/b.py": lines(n, "get_package_share_directory('b%d')")},
     "Python: punycode": lambda n: {**setup(""), "a/b.py": "# coding: punycode\n" + "a" * 10 * n},
     "messages: fields": lambda n: cmake("rosidl_generate_interfaces(a msg/B.msg)\n", files={"msg/B.msg": lines(n, "b%d/C c%d")}),
+    "messages: constants": lambda n: cmake(
+        "rosidl_generate_interfaces(a msg/B.msg)\n", files={"msg/B.msg": lines(n, "int32 C%d = %d  # d")}
+    ),
+    "messages: structures in IDL": lambda n: cmake(
+        "rosidl_generate_interfaces(a msg/B.idl)\n",
+        files={"msg/B.idl": "module a {\nmodule msg {\n" + lines(n, "struct B%d { c::msg::D%d e; };") + "};\n};\n"},
+    ),
     "services: parts": lambda n: cmake("rosidl_generate_interfaces(a srv/B.srv)\n", files={"srv/B.srv": "---\n" * n}),
     "parameters: nodes": lambda n: cmake(
         "install(DIRECTORY config DESTINATION share/a)\n",
@@ -333,11 +423,27 @@ LADDERS: dict[str, Callable[[int], Files]] = {
         ".gitignore": lines(n, "b%d/*"),
         "c/d": "",
     },
+    "xacro: arguments": lambda n: cmake(
+        "install(DIRECTORY urdf DESTINATION share/a)\n",
+        files={
+            "urdf/b.xacro": '<robot xmlns:xacro="x">'
+            + lines(n, '<xacro:arg name="b%d" default="c"/><xacro:include filename="$(find d%d)/$(arg b%d)"/>')
+            + "</robot>"
+        },
+    ),
+    "colcon.meta: packages": lambda n: {**cmake(""), "colcon.meta": f"{{names: {{{words(n, 'b%d: {cmake-args: [c]}', ', ')}}}}}"},
     "colcon.pkg: dependencies": lambda n: {
         **cmake(""),
         "colcon.pkg": "{" + f'"name": "a", "dependencies": [{words(n, chr(34) + "b%d" + chr(34), ", ")}]' + "}",
     },
     "CMake without a manifest": lambda n: {"CMakeLists.txt": "project(a)\nfind_package(Q" + " " * 10 * n},
+    # what becomes of findings
+    "findings": lambda n: source("b.cpp", lines(n, 'auto a%d = "/home/b/c%d";')),
+    "findings on one line": lambda n: source("b.cpp", words(n, 'auto a%d = "/home/b/c%d";')),
+    "findings, suppressed": lambda n: source("b.cpp", lines(n, 'auto a%d = "/home/b/c%d";  // ros-lint: ignore[machine-path]')),
+    "findings, suppressed on one line": lambda n: source(
+        "b.cpp", words(n, '/* ros-lint: ignore[machine-path] */ auto a%d = "/home/b/c%d";')
+    ),
     # whole workspaces
     "packages": lambda n: {
         f"{folder}/{path}": text.replace("<name>a<", f"<name>p{i}<").replace("project(a)", f"project(p{i})")

@@ -36,6 +36,11 @@ EXCEPTIONS: Final = {
     "CMake: targets in a chain": "each target is followed to all below it, at most 1,000",
     "CMake: targets in a ring": "each target is followed to all below it, at most 1,000",
     "CMake: replacements": "a compiled expression is extended by states when it first needs them, at most 1,000",
+    **{
+        name: "a name is compared with all others if these are at most 100, otherwise with a few"
+        for name in growth.LADDERS
+        if name.startswith("similar names")
+    },
 }
 """Ladders that may grow faster, with the reason, which includes the limit that ends the growth."""
 

@@ -2,17 +2,63 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
+from itertools import islice, pairwise
+
+_MOST_COMPARED = 100
+"""Number of names that are all compared with a name. Among more names, only those that share rare letter pairs with it are."""
+_MOST_NAMES = 4_000
+"""Greatest number of names in which similar ones are searched for: a suggestion is not worth more time."""
+_MOST_PLACES = 600
+_MOST_CANDIDATES = 6
 
 
 def similar_names(name: str, names: Iterable[str], most: int = 1, least: float = 0.6) -> list[str]:
     """Return at most ``most`` of ``names`` that resemble ``name``, the most similar first.
 
-    ``least`` is the minimum similarity, from 0 to 1.
+    ``least`` is the minimum similarity, from 0 to 1. Among more than a hundred names, only some are compared, and none among
+    more than some thousand.
     """
     from difflib import get_close_matches  # noqa: PLC0415  (slow to import, and needed for unknown names only)
 
-    return get_close_matches(name, list(names), most, least)
+    known = tuple(islice(names, _MOST_NAMES + 1))
+    if len(known) > _MOST_COMPARED:
+        known = _candidates(name, tuple(sorted(known))) if len(known) <= _MOST_NAMES else ()
+    return get_close_matches(name, known, most, least)
+
+
+def _candidates(name: str, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return those of many names that share the largest part of their letter pairs with ``name``.
+
+    The rarest pairs are looked up first.
+    """
+    places = _places_of_pairs(names)
+    found = sorted([places[pair] for pair in dict.fromkeys(_pairs(name)) if pair in places], key=len)
+    shared: Counter[int] = Counter()
+    left = _MOST_PLACES
+    for numbers in found:
+        shared.update(numbers[:left])
+        left -= len(numbers)
+        if left <= 0:
+            break
+    ranked = sorted([(-common / (len(name) + len(names[number])), number) for number, common in shared.items()])
+    return tuple([names[number] for _, number in ranked[:_MOST_CANDIDATES]])
+
+
+@lru_cache(maxsize=8)
+def _places_of_pairs(names: tuple[str, ...]) -> dict[str, list[int]]:
+    """Return the numbers of the names that contain a pair of letters, by pair."""
+    places: dict[str, list[int]] = {}
+    for number, name in enumerate(names):
+        for pair in dict.fromkeys(_pairs(name)):
+            places.setdefault(pair, []).append(number)
+    return places
+
+
+def _pairs(name: str) -> list[str]:
+    return [first + second for first, second in pairwise(f"^{name}$")]
 
 
 def nearest_names(name: str, names: Iterable[str]) -> list[str]:
@@ -39,6 +85,7 @@ def of_same_kind(path: str, paths: Iterable[str]) -> list[str]:
     return [other for other in paths if not kind or _kind_of_file(other) in ("", kind)]
 
 
+@lru_cache(maxsize=_MOST_NAMES)
 def _kind_of_file(path: str) -> str:
     suffixes = path.rpartition("/")[2].split(".")[1:]
     kinds = [_SAME_KIND.get(suffix, suffix) for suffix in suffixes]
@@ -71,11 +118,11 @@ def and_list(words: Sequence[str]) -> str:
     return " and ".join(filter(None, (", ".join(words[:-1]), *words[-1:])))
 
 
-_MOST_NAMES = 3
+_MOST_LISTED = 3
 
 
 def shorten_list(names: Iterable[str]) -> str:
     """Return the first three names in quotes, followed by the number of further names: "'a', 'b', 'c' and 2 more"."""
     names = list(names)
-    first = ", ".join([f"'{name}'" for name in names[:_MOST_NAMES]])
-    return f"{first} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else first
+    first = ", ".join([f"'{name}'" for name in names[:_MOST_LISTED]])
+    return f"{first} and {len(names) - _MOST_LISTED} more" if len(names) > _MOST_LISTED else first

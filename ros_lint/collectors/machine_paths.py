@@ -10,6 +10,8 @@ Such paths are:
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
+from itertools import accumulate
 
 from ros_lint.base.text import Text
 from ros_lint.collectors.comments import comments
@@ -82,10 +84,13 @@ def collect(text: Text) -> tuple[MachinePath, ...]:
     ignored_ranges = [*comments(text), *(_docstrings(text) if text.path.endswith(".py") else ())]
     if text.path.endswith(".rviz"):
         ignored_ranges += [unread.span() for unread in _UNREAD.finditer(content)]
+    ignored_ranges.sort()
+    starts = [start for start, _ in ignored_ranges]
+    reach = [0, *accumulate([end for _, end in ignored_ranges], max)]  # where the first ranges end at the latest
     reported = [
         match
         for match in matches
-        if not any(start <= match.start("path") < end for start, end in ignored_ranges)
+        if reach[bisect_right(starts, match.start("path"))] <= match.start("path")
         and not _HELP.search(content, max(0, match.start("path") - _MAX_CONTEXT), match.start("path"))
     ]
     return tuple([_machine_path(text, match) for match in reported])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ros_lint.engine.report import ExplainedFinding
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Sequence
+    from collections.abc import Container, Sequence
 
     from ros_lint.engine.report import Issue
 
@@ -20,11 +20,13 @@ def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] 
     - A cause gets the severity of its most severe consequence, unless its rule is one of ``fixed_severities``.
     - If issues explain only each other, all of them are returned.
     """
-    packages = {issue.package for issue in issues if issue.finding.explains}
-    by_package = {package: [issue for issue in issues if issue.package == package] for package in packages}
-    causes = {issue: _explained_by(issue, by_package[issue.package]) for issue in issues if issue.finding.explains}
-    if not any(causes.values()):
+    if not any(issue.finding.explains for issue in issues):
         return tuple(issues)
+    places: _Places = {}
+    for number, issue in enumerate(issues):
+        for subject in {issue.finding.subject, ""}:  # "" stands for every subject
+            places.setdefault((issue.package, issue.rule.name, subject), []).append(number)
+    causes = {issue: _explained_by(issue, issues, places) for issue in issues if issue.finding.explains}
     consequences = {explained for group in causes.values() for explained in group}
     explained_issues: set[Issue] = set()
     pending = [issue for issue in causes if issue not in consequences]
@@ -41,16 +43,18 @@ def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] 
     )
 
 
-def _explained_by(cause: Issue, issues: Iterable[Issue]) -> list[Issue]:
-    """Return the elements of ``issues`` that ``cause`` explains. All of ``issues`` are about the package of ``cause``."""
-    keys = {(consequence.rule, consequence.subject) for consequence in cause.finding.explains}
+_Places = dict[tuple[str, str, str], list[int]]
+"""The numbers of issues by their package, rule and subject."""
+
+
+def _explained_by(cause: Issue, issues: Sequence[Issue], places: _Places) -> list[Issue]:
+    """Return the elements of ``issues`` that ``cause`` explains, in their order."""
+    keys = {(cause.package, consequence.rule, consequence.subject) for consequence in cause.finding.explains}
+    numbers = sorted({number for key in keys for number in places.get(key, ())})
     return [
         issue
-        for issue in issues
-        if issue is not cause
-        and not keys.isdisjoint([(issue.rule.name, issue.finding.subject), (issue.rule.name, "")])
-        and issue.finding.confidence <= cause.finding.confidence
-        and _in_all_distros_of(issue, cause)
+        for issue in map(issues.__getitem__, numbers)
+        if issue is not cause and issue.finding.confidence <= cause.finding.confidence and _in_all_distros_of(issue, cause)
     ]
 
 

@@ -7,9 +7,8 @@ precede it. For details, see docs/suppressions.md.
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_left, bisect_right
-from itertools import accumulate
+from itertools import accumulate, chain
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.suggestions import similar_names
@@ -17,9 +16,10 @@ from ros_lint.engine.former_rules import former_rule
 from ros_lint.facts.suppressions import Name, Suppression, SuppressionUse, UnknownSelector, Unused, lines_of
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Mapping
+    from collections.abc import Container, Iterable, Iterator, Mapping
 
     from ros_lint.analysis.rule import Rule
+    from ros_lint.base.text import Span
     from ros_lint.engine.report import Issue
 
 
@@ -54,17 +54,16 @@ def apply_suppressions(
             if rule is not None:
                 by_place.setdefault((comment.span.path, rule), []).append((comment, name))
     indexes = {key: _LineIndex(entries) for key, entries in by_place.items()}
-    used: set[tuple[Suppression, Name]] = set()
     kept: list[Issue] = []
     suppressed: list[tuple[Issue, Suppression]] = []
     for issue in issues:
         index = indexes.get((issue.finding.span.path, issue.rule.name))
-        hits = index.matching(issue) if index else []
-        used.update(hits)
+        hits = index.matching(issue.finding.span) if index else ()
         if hits:
             suppressed.append((issue, hits[0][0]))
         else:
             kept.append(issue)
+    used = {entry for index in indexes.values() for entry in index.used}
     unused = [
         (comment, tuple([name for name, rule in rules if rule in judged and (comment, name) not in used]))
         for comment, rules in resolved
@@ -86,21 +85,33 @@ class _LineIndex:
     """The suppressions of one rule in one file, indexed by line, because a file may have thousands."""
 
     def __init__(self, entries: Iterable[tuple[Suppression, Name]]) -> None:
-        self._entries = sorted(entries, key=_first_line)
-        self._firsts = [_first_line(entry) for entry in self._entries]
+        ordered = sorted(entries, key=lambda entry: _lines(entry)[0])
+        self._everywhere = [entry for entry in ordered if entry[0].lines is None]
+        self._entries = ordered[len(self._everywhere) :]
+        self._firsts = [_lines(entry)[0] for entry in self._entries]
         # For each entry, the last line to which it or an earlier entry applies.
-        self._reach = list(accumulate([math.inf if mark.lines is None else mark.lines[1] for mark, _ in self._entries], max))
+        self._reach = list(accumulate([_lines(entry)[1] for entry in self._entries], max))
+        self._by_lines: dict[tuple[int, int], tuple[tuple[Suppression, Name], ...]] = {}
 
-    def matching(self, issue: Issue) -> list[tuple[Suppression, Name]]:
-        """Return the suppressions that apply to the place of an issue, each with the Name in it that refers to the rule."""
-        first, last = lines_of(issue.finding.span)
-        near = self._entries[bisect_left(self._reach, first) : bisect_right(self._firsts, last)]
-        return [entry for entry in near if entry[0].covers(issue.finding.span)]
+    def matching(self, span: Span) -> tuple[tuple[Suppression, Name], ...]:
+        """Return the suppressions that apply to a place, each with the Name in it that refers to the rule."""
+        lines = lines_of(span)
+        found = self._by_lines.get(lines)
+        if found is None:
+            near = self._entries[bisect_left(self._reach, lines[0]) : bisect_right(self._firsts, lines[1])]
+            found = tuple([entry for entry in (*self._everywhere, *near) if entry[0].covers(span)])
+            self._by_lines[lines] = found
+        return found
+
+    @property
+    def used(self) -> Iterator[tuple[Suppression, Name]]:
+        """The suppressions that :meth:`matching` has returned; some of them several times."""
+        return chain.from_iterable(self._by_lines.values())
 
 
-def _first_line(entry: tuple[Suppression, Name]) -> int:
-    lines = entry[0].lines
-    return lines[0] if lines else 0
+def _lines(entry: tuple[Suppression, Name]) -> tuple[int, int]:
+    """Return the lines to which a suppression applies; (0, 0), which comes before all others, for a whole file."""
+    return entry[0].lines or (0, 0)
 
 
 def _unknown(comment: Suppression, name: Name, spellings: Mapping[str, str]) -> UnknownSelector:

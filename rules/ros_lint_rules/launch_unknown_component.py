@@ -32,7 +32,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Facet, Finding, Package, Related, Rule, Severity, Workspace, first_related, launch, names
+from ros_lint.api import (
+    Confidence,
+    Facet,
+    Finding,
+    Package,
+    Related,
+    Rule,
+    Severity,
+    Workspace,
+    cached_by_package,
+    first_related,
+    launch,
+    names,
+)
 
 
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
@@ -78,14 +91,20 @@ def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ..
     if not owners:
         known = workspace.world.components(owner)
         return known.possible if known.ask(name) == "missing" else None
-    all_names: set[str] = set()
-    for package in owners:
-        if package.script is None or package.hidden(Facet.COMPONENTS):
-            return None
-        all_names.update(component.name for component in package.script.products.components)
-        # component-mismatch reports classes that the sources export but CMake does not register.
-        all_names.update(registration.name for registration in package.registrations if registration.kind == "component")
-    return None if name in all_names else tuple(sorted(all_names))
+    registered = [_registered(package, workspace) for package in owners]
+    if any(all_names is None or name in all_names for all_names in registered):
+        return None
+    return tuple(sorted({other for all_names in registered for other in all_names or ()}))
+
+
+@cached_by_package
+def _registered(package: Package, _: Workspace) -> frozenset[str] | None:
+    """Return the components that a package registers, None if they are not known."""
+    if package.script is None or package.hidden(Facet.COMPONENTS):
+        return None
+    # component-mismatch reports classes that the sources export but CMake does not register.
+    exported = [registration.name for registration in package.registrations if registration.kind == "component"]
+    return frozenset([*(component.name for component in package.script.products.components), *exported])
 
 
 RULE = Rule(

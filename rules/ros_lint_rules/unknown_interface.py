@@ -185,7 +185,8 @@ def _wrong_released(used: _Used, workspace: Workspace) -> str | None:
 
 def _is_among(used: _Used, available: Collection[str]) -> bool:
     """Return whether the interface is among ``available``, or is a message of a service or action there: ``Add_Request``."""
-    return used.name in available or (not used.header and any(used.name.startswith(f"{name}_") for name in available))
+    beginnings = [used.name[: match.start()] for match in re.finditer("_", used.name)]
+    return used.name in available or (not used.header and any(name in available for name in beginnings))
 
 
 def _message(used: _Used, interfaces: Sequence[str], available: Collection[str], verb: str, remedy: str) -> str:

@@ -46,7 +46,8 @@ none.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
+from functools import cache
 
 from ros_lint.api import (
     Confidence,
@@ -79,8 +80,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     certain = not any(_PROVIDES_CODE.search(name) and not _WITHOUT_VARIABLES.match(name) for name in searched)
     products = script.products
     has_exports = products.targets or products.interfaces or any(file.path.startswith("include/") for file in products.installs)
+    variables = _Variables(package, workspace)
     for name, places in references.items():
-        similar, fits = _similar(package, workspace, name, places)
+        similar, fits = variables.similar(name, places)
         finding = _finding(name, places, similar, certain or fits)
         harmless = not has_exports and all(reference.command.startswith("ament_export_") for reference in places)
         yield finding._replace(severity=Severity.INFO) if harmless else finding
@@ -141,26 +143,51 @@ _CONSEQUENCES = {
 }  # fmt: skip
 
 
-def _similar(package: Package, workspace: Workspace, name: str, places: Sequence[UnsetVariable]) -> tuple[Sequence[str], bool]:
-    """Return those variables of the CMake files whose names resemble ``name``, the most similar first.
+class _Variables:
+    """The variables that the CMake files of a package set, for suggestions."""
 
-    Variables with contents that the commands at ``places`` cannot use are left out. The second result is True if the contents of
-    all returned variables are known to fit, and there is such a variable.
-    """
-    contents: dict[str, set[str]] = {}
-    for command, index in _SETTING.items():
-        for call in package.calls(command, anywhere=True):
-            if len(call.args) > index and _NAME.fullmatch(call.texts[index]):
-                contents.setdefault(call.texts[index], set()).update(call.texts[index + 1 :] if command in _LISTING else ())
-    allowed = [kinds for reference in places if (kinds := _allowed(reference.command))]
-    fits: dict[str, bool] = {}
-    for candidate, words in contents.items():
-        known = [kinds for word in words if (kinds := _kinds(word, package, workspace))]
-        if all(kinds & wanted for kinds in known for wanted in allowed):
-            fits[candidate] = bool(known)
-    by_case = [candidate for candidate in fits if candidate.lower() == name.lower()]
-    similar = by_case[:1] or names.similar_names(name, fits, 2, 0.75)
-    return similar, bool(similar) and all(fits[candidate] for candidate in similar)
+    def __init__(self, package: Package, workspace: Workspace) -> None:
+        contents: dict[str, dict[str, None]] = {}
+        for command, index in _SETTING.items():
+            for call in package.calls(command, anywhere=True):
+                if len(call.args) > index and _NAME.fullmatch(call.texts[index]):
+                    words = call.texts[index + 1 :] if command in _LISTING else ()
+                    contents.setdefault(call.texts[index], {}).update(dict.fromkeys(words))
+        targets = frozenset(target.name for target in package.built.products.targets)
+        files = frozenset(package.files)
+
+        @cache
+        def kinds(word: str) -> frozenset[str]:
+            return _kinds(word, targets, files, workspace)
+
+        self._kinds = {name: frozenset(filter(None, map(kinds, words))) for name, words in contents.items()}
+        self._by_lower: dict[str, list[str]] = {}
+        for name in contents:
+            self._by_lower.setdefault(name.lower(), []).append(name)
+        self._fitting: dict[frozenset[frozenset[str]], dict[str, bool]] = {}
+
+    def similar(self, name: str, places: Sequence[UnsetVariable]) -> tuple[Sequence[str], bool]:
+        """Return the variables whose names resemble ``name``, the most similar first.
+
+        Variables with contents that the commands at ``places`` cannot use are left out. The second result is True if the contents
+        of all returned variables are known to fit, and there is such a variable.
+        """
+        fits = self._fit(frozenset(kinds for reference in places if (kinds := _allowed(reference.command))))
+        by_case = [candidate for candidate in self._by_lower.get(name.lower(), ()) if candidate in fits]
+        similar = by_case[:1] or names.similar_names(name, fits, 2, 0.75)
+        return similar, bool(similar) and all(fits[candidate] for candidate in similar)
+
+    def _fit(self, allowed: frozenset[frozenset[str]]) -> dict[str, bool]:
+        """Return the variables whose contents may be of the allowed kinds, each with whether the contents are known."""
+        fits = self._fitting.get(allowed)
+        if fits is None:
+            fits = {
+                name: bool(known)
+                for name, known in self._kinds.items()
+                if all(kinds & wanted for kinds in known for wanted in allowed)
+            }
+            self._fitting[allowed] = fits
+        return fits
 
 
 _SETTING = {
@@ -191,13 +218,13 @@ _ALLOWED = {
 """The kinds of arguments that commands can use, by the beginnings of their names."""
 
 
-def _kinds(word: str, package: Package, workspace: Workspace) -> frozenset[str]:
+def _kinds(word: str, targets: Container[str], files: Container[str], workspace: Workspace) -> frozenset[str]:
     """Return what an argument may be: "package", "target" or "file"; empty if that is unknown, as for ``${name}``."""
     if "$" in word or not _WORD.fullmatch(word):
         return frozenset()
     kinds = {
-        "target": "::" in word or any(target.name == word for target in package.built.products.targets),
-        "file": "/" in word or word in package.files,
+        "target": "::" in word or word in targets,
+        "file": "/" in word or word in files,
         "package": workspace.world.is_package(word),
     }
     return frozenset(kind for kind, applies in kinds.items() if applies)

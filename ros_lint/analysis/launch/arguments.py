@@ -63,8 +63,10 @@ def _similar(file: LaunchFile, names: frozenset[str], declared: Mapping[str, Spa
 
     Names with different digits are not similar: ``camera1`` and ``camera2``.
     """
+    by_digits: dict[tuple[str, ...], list[str]] = {}
+    for argument in declared if names else ():
+        by_digits.setdefault(tuple(_DIGITS.findall(argument)), []).append(argument)
     for (name, has_default), span in read_sites(file, names).items() if names else ():
-        digits = _DIGITS.findall(name)
-        near = similar_names(name, [argument for argument in declared if _DIGITS.findall(argument) == digits], 1, 0.85)
+        near = similar_names(name, by_digits.get(tuple(_DIGITS.findall(name)), ()), 1, 0.85)
         if has_default and near:
             yield name, SimilarRead(span, near[0])

@@ -95,8 +95,10 @@ def undeclared(uses: Sequence[NodeParameterFile], workspace: Workspace) -> Itera
             return
         free = [name for name in program.declared if name not in given]
         receivers.append((passed, names, words_of(program.package, workspace), free))
+    nodes = dict.fromkeys(parameter.node for parameter in uses[0].file.parameters)
+    of_node = {node: [row for row in receivers if any(matches(node, name) for name in row[1])] for node in nodes}
     for parameter in uses[0].file.parameters:
-        own = [row for row in receivers if any(matches(parameter.node, name) for name in row[1])]
+        own = of_node[parameter.node]
         if not own or _is_of_every_node(parameter.name):
             continue
         last = parameter.name.rpartition(".")[2]
