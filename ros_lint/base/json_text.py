@@ -6,7 +6,7 @@ import json
 import re
 from typing import Any
 
-from ros_lint.base.controls import HARMFUL
+from ros_lint.base.controls import HARMFUL, LOG_COMMAND
 
 _LONE = re.compile("[\ud800-\udfff]")
 
@@ -21,8 +21,11 @@ def encode(value: Any, levels: int) -> str:
 
 
 def harmless(text: str) -> str:
-    """Return JSON with escapes for characters that are harmful in a terminal. Lone surrogates become U+FFFD."""
-    return HARMFUL.sub(lambda match: f"\\u{ord(match[0]):04x}", _LONE.sub("\ufffd", text))
+    """Return JSON with escapes for characters that are harmful in a terminal, and for commands in the log of a build.
+
+    Lone surrogates become U+FFFD.
+    """
+    return HARMFUL.sub(lambda match: f"\\u{ord(match[0]):04x}", LOG_COMMAND.sub(r"#\\u0023", _LONE.sub("\ufffd", text)))
 
 
 def _lines(value: Any, levels: int, indent: str) -> str:

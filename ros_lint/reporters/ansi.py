@@ -6,7 +6,7 @@ import re
 from functools import lru_cache
 from typing import NamedTuple
 
-from ros_lint.base.controls import HARMFUL
+from ros_lint.base.controls import HARMFUL, LOG_COMMAND
 
 TAB = 4
 """Number of columns for which a tab is replaced by blanks."""
@@ -55,24 +55,23 @@ def link(url: str, text: str) -> str:
 
 def safe(text: str, style: Style) -> str:
     """Return a text with escapes in place of characters that move the cursor, or change colours or the direction of writing."""
-    text = _COMMAND.sub(r"#\\x23", text)
+    text = LOG_COMMAND.sub(r"#\\x23", text)
     return text if _PLAIN.match(text) else "".join(glyph(character, style.ascii)[0] for character in text)
-
-
-_COMMAND = re.compile(r"##(?=\[|vso\[)")
-"""Matches the start of a command, anywhere in a line, for GitHub Actions (``##[error]``) and Azure Pipelines (``##vso[...]``)."""
 
 
 def harmless(text: str) -> str:
     """Return a text of any number of lines with escapes in place of the characters that :func:`safe` escapes in a line."""
-    return HARMFUL.sub(lambda match: _escape(ord(match[0])), text)
+    return HARMFUL.sub(lambda match: _escape(ord(match[0])), LOG_COMMAND.sub(r"#\\x23", text))
 
 
 def cells(line: str, style: Style) -> tuple[list[str], list[int]]:
     """Return a list with the text to show for each code point of a line, and a list with the width of each in columns."""
-    if _PLAIN.match(line):
+    commands = [match.start() + 1 for match in LOG_COMMAND.finditer(line)]
+    if not commands and _PLAIN.match(line):
         return list(line), [1] * len(line)
     pairs = [glyph(character, style.ascii) for character in line]
+    for second in commands:
+        pairs[second] = ("\\x23", 4)
     return [shown for shown, _ in pairs], [width for _, width in pairs]
 
 
