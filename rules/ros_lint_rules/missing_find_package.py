@@ -31,7 +31,8 @@ severity info.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
 
 from ros_lint.api import (
     Confidence,
@@ -62,14 +63,14 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     found = dependencies.names_searched(package, script)
     spelt = {name.lower() for name in found}  # namespaces of targets may differ in case: RTABMap, rtabmap::core
-    along = dependencies.find_package_closure(workspace, found)
+    along = cache(lambda: dependencies.find_package_closure(workspace, found))  # many packages need no closure
     missing: dict[str, list[tuple[str, Related]]] = {}
     probable: set[str] = set()
     for mention in script.mentions:
         name = mention.name.partition("::")[0]
         if mention.via not in ("target", "macro") or mention.optional or name.lower() in spelt or name == package.name:
             continue
-        if mention.via == "macro" and (along is None or not along.isdisjoint(workspace.world.by_macro(name).names)):
+        if mention.via == "macro" and _finds_any(along(), workspace.world.by_macro(name).names):
             if _gives_commands(name):
                 continue
             probable.add(name)
@@ -80,7 +81,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         missing.setdefault(name, []).append((what, Related(f"'{name}' is also needed here: {what}", mention.span)))
     for name, places in missing.items():
         (what, first), *others = places
-        sure = along is not None and name not in along and name not in probable
+        sure = name not in probable and not _finds_any(along(), (name,))
         why = "but there is no find_package() for it" if sure else "but only another package calls find_package() for it"
         yield Finding(
             f"{what} needs '{name}', {why}; add find_package({name} REQUIRED) before this use",
@@ -90,7 +91,12 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             confidence=Confidence.HIGH if sure else Confidence.MEDIUM,
             severity=None if sure else Severity.INFO,
         )
-    yield from (finding for finding in _included(package, along, workspace) if finding.subject not in missing)
+    yield from (finding for finding in _included(package, found, along, workspace) if finding.subject not in missing)
+
+
+def _finds_any(along: frozenset[str] | None, wanted: Iterable[str]) -> bool:
+    """Return whether CMake finds, or may find, one of the packages ``wanted`` along with those that the script finds."""
+    return along is None or not along.isdisjoint(wanted)
 
 
 def _gives_commands(name: str) -> bool:
@@ -98,13 +104,14 @@ def _gives_commands(name: str) -> bool:
     return "cmake" in name or name.startswith(("ament_", "rosidl_")) or name.endswith(names.VENDOR)
 
 
-def _included(package: Package, along: frozenset[str] | None, workspace: Workspace) -> Iterator[Finding]:
+def _included(
+    package: Package, found: frozenset[str], along: Callable[[], frozenset[str] | None], workspace: Workspace
+) -> Iterator[Finding]:
     """Yield findings for declared packages whose headers the sources include, although no find_package() finds the package.
 
-    ``along``: the packages that CMake finds, directly or through other packages; None if unknown.
+    ``found`` has the names that the script finds. ``along`` returns the packages that CMake finds, directly or through other
+    packages; None if unknown.
     """
-    if along is None:
-        return
     folders = (text for call in package.calls(*_INCLUDING, anywhere=True) for text in call.texts)
     if any(text.startswith("/") or ".." in text for text in folders):
         return  # the headers may be in the sources or install folder of another package
@@ -117,7 +124,8 @@ def _included(package: Package, along: frozenset[str] | None, workspace: Workspa
             places.setdefault(use.package, []).append(use)
     for name, uses in places.items():
         providers = {provider for use in uses for provider in use.providers}
-        if package.declares(name) and world.is_package(name) and providers.isdisjoint(along):
+        candidate = package.declares(name) and world.is_package(name) and providers.isdisjoint(found)
+        if candidate and not _finds_any(along(), providers):
             first, *others = uses
             yield Finding(
                 f"{first.what} needs '{name}', which is declared, but there is no find_package({name} REQUIRED); add it and link "
