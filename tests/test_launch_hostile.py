@@ -159,8 +159,8 @@ def test_huge_values_are_limited(name: str) -> None:
         (
             "xml",
             "<launch>"
-            + "".join(f"<let name='a' value='$(var a)b{i}' if='$(var u 1)'/>" for i in range(2_000))
-            + "".join(f"<node pkg='$(var a)' exec='$(var a){i}' name='$(var a)'/>" for i in range(500))
+            + "".join(f"<let name='a' value='$(var a)b{i}' if='$(var u 1)'/>" for i in range(1_000))
+            + "".join(f"<node pkg='$(var a)' exec='$(var a){i}' name='$(var a)'/>" for i in range(250))
             + "</launch>",
         ),
         ("yaml", "launch:\n- " + "[" * 20_000 + "]" * 20_000),
