@@ -1,6 +1,6 @@
 """The work of a check grows in proportion to the elements of a workspace.
 
-The ladders are those of bench/growth.py: small workspaces with a number of elements of one kind. Steps are counted, which are
+The ladders are those of bench/ladders.py: small workspaces with a number of elements of one kind. Steps are counted, which are
 the lines of Python that run, because they are the same on a busy machine. Scans inside the interpreter, such as those of a list,
 do not count; bench/growth.py measures them as time.
 """
@@ -17,6 +17,7 @@ from typing import Any, Final
 import pytest
 
 from bench import growth
+from bench.ladders import LADDERS
 
 pytestmark = pytest.mark.slow
 
@@ -38,7 +39,7 @@ EXCEPTIONS: Final = {
     "CMake: replacements": "a compiled expression is extended by states when it first needs them, at most 1,000",
     **{
         name: "a name is compared with all others if these are at most 100, otherwise with a few"
-        for name in growth.LADDERS
+        for name in LADDERS
         if name.startswith("similar names")
     },
 }
@@ -53,7 +54,7 @@ def _steps(name: str, count: int, folder: Path) -> int:
         steps += 1
         return trace
 
-    growth.write(growth.LADDERS[name](count), folder)
+    growth.write(LADDERS[name](count), folder)
     growth.check(str(folder))  # imports and caches are not counted
     before = sys.gettrace()
     sys.settrace(trace)
@@ -69,7 +70,7 @@ def _warm() -> None:
     growth.warm_up()
 
 
-@pytest.mark.parametrize("name", sorted(growth.LADDERS))
+@pytest.mark.parametrize("name", sorted(LADDERS))
 def test_steps_grow_linearly(tmp_path: Path, name: str) -> None:
     _warm()
     few, double, many = (_steps(name, count, tmp_path / str(count)) for count in (_FEW, 2 * _FEW, 4 * _FEW))
@@ -80,4 +81,4 @@ def test_steps_grow_linearly(tmp_path: Path, name: str) -> None:
 
 
 def test_exceptions_name_ladders() -> None:
-    assert EXCEPTIONS.keys() <= growth.LADDERS.keys()
+    assert EXCEPTIONS.keys() <= LADDERS.keys()

@@ -122,6 +122,20 @@ def test_manipulated_records_are_not_used(tmp_path: Path) -> None:
         kept._replace(inputs=kept.inputs[:1]),
         kept._replace(inputs=(kept.inputs[0]._replace(reads=b"\0" * 4), *kept.inputs[1:])),
         kept._replace(places=(first._replace(reads=b"x"), *others)),
+        *(
+            kept._replace(inputs=tuple(entry._replace(name=name) for entry in kept.inputs))
+            for name in (
+                "",
+                "x",
+                "field x a",
+                "field 999 a",
+                "answer",
+                "answer x:y package a",
+                "answer x:y",
+                "world \0",
+                "name x \0",
+            )
+        ),
         kept._replace(places=(first._replace(reads=b"\xff" * 4), *others)),
         kept._replace(places=tuple(place._replace(found=(_KeptFinding("x", "", _FINDING),)) for place in kept.places)),
     ):

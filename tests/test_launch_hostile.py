@@ -20,7 +20,7 @@ from tests.one_package import loaded
 
 pytestmark = pytest.mark.slow
 
-SECONDS = 5.0
+SECONDS = 2.0
 KILOBYTES = 100 << 10
 
 HEAD = """

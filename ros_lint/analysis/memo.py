@@ -17,10 +17,11 @@ NAMES: dict[object, str] = {}
 """The module and name of each decorated function, by the function without the decorator, which is in the questions."""
 
 
-def _note(function: Callable[..., object], cached: Callable[..., object]) -> None:
+def _register(function: Callable[..., object], cached: Callable[..., object]) -> None:
+    """Add a decorated function to :data:`CACHED`. A second function with the same name, such as an inner one, has no name."""
     name = f"{function.__module__}:{function.__qualname__}"
-    CACHED[name] = cached
-    NAMES[function] = name
+    if CACHED.setdefault(name, cached) is cached:
+        NAMES[function] = name
 
 
 def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspace], T]:
@@ -30,7 +31,7 @@ def cached_by_workspace(function: Callable[[Workspace], T]) -> Callable[[Workspa
     def cached_function(workspace: Workspace) -> T:
         return workspace.memo.ask(function, lambda: function(workspace))
 
-    _note(function, cached_function)
+    _register(function, cached_function)
     return cached_function
 
 
@@ -42,7 +43,7 @@ def cached_by_package(function: Callable[[Package, Workspace], T]) -> Callable[[
         # The package is stored, too, so that its id stays unique.
         return workspace.memo.ask((function, id(package)), lambda: (package, function(package, workspace)))[1]
 
-    _note(function, cached_function)
+    _register(function, cached_function)
     return cached_function
 
 
@@ -53,5 +54,5 @@ def cached_by_name(function: Callable[[Workspace, str], T]) -> Callable[[Workspa
     def cached_function(workspace: Workspace, name: str) -> T:
         return workspace.memo.ask((function, name), lambda: function(workspace, name))
 
-    _note(function, cached_function)
+    _register(function, cached_function)
     return cached_function

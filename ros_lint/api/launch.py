@@ -22,12 +22,13 @@ from ros_lint.analysis.launch.files import (
     run_launch_files,
     used_files,
 )
-from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, launch_file, substitute
+from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, substitute
 from ros_lint.analysis.launch.parameter_checks import Undeclared, WrongType, undeclared, unmatched_nodes, wrong_types
 from ros_lint.analysis.launch.parameter_files import NodeParameterFile, given_parameter_files, parameter_files_passed_on
 from ros_lint.analysis.launch.remappings import UnusedRemapping, unused_remappings
 from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
 from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes, scope_leaks
+from ros_lint.analysis.launch.workspace_files import launch_file
 from ros_lint.collectors.conditional_text import are_consistent
 from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
 from ros_lint.collectors.symbolic_text import configurations, is_node_renaming, is_plain

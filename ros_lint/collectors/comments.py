@@ -71,7 +71,7 @@ class _Mark(NamedTuple):
     start: str
     """The first characters of the opening mark."""
     closing: str
-    """The closing mark; %s stands for what it repeats of the opening mark."""
+    """The closing mark. ``%s`` is the group ``repeated`` of the opening mark: the closing mark of ``[==[`` is ``]==]``."""
     is_comment: bool
     """False for a string."""
 
@@ -81,7 +81,7 @@ class _Brackets(NamedTuple):
 
     marks: tuple[_Mark, ...]
     opening: str
-    """Pattern of the opening marks. The group ``repeated`` is what the closing mark repeats."""
+    """Pattern of the opening marks. The closing mark contains the text of the group ``repeated`` again."""
     closing: str
     """Pattern of the closing marks."""
     plain: tuple[str, ...]

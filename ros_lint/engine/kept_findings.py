@@ -6,7 +6,6 @@ loaded workspace (:mod:`ros_lint.workspace.inputs`), so that an edit without an 
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
@@ -15,10 +14,10 @@ from ros_lint.analysis.finding import Finding
 from ros_lint.base.columns import Codec
 from ros_lint.base.questions import ReadSets
 from ros_lint.base.recorded_tree import Answers
+from ros_lint.engine.kept_values import UNKNOWN, CurrentValues, KeptInput, packed, unpacked
 from ros_lint.engine.report import Issue
 from ros_lint.engine.run import Results, question_of, results_of
-from ros_lint.engine.shared_answers import PREFIX, SharedAnswers
-from ros_lint.workspace.inputs import Inputs, digest
+from ros_lint.engine.shared_answers import PREFIX
 
 if TYPE_CHECKING:
     from ros_lint.analysis.rule import Rule
@@ -26,7 +25,9 @@ if TYPE_CHECKING:
     from ros_lint.base.recorded_tree import RecordedTree
     from ros_lint.workspace.cache.file import CacheFile
     from ros_lint.workspace.handles import Handles
-    from ros_lint.workspace.model import Package
+    from ros_lint.workspace.model import Package, Workspace
+
+    _Computed = dict[str, list[tuple[Cell, Results]]]
 
 
 RECORD = "findings-"
@@ -36,23 +37,10 @@ _RULE = "//"
 """Prefix of the place of the findings of a rule for workspaces: its name follows. No path of a package begins with it."""
 
 
-_UNKNOWN = ""
-"""Name of an input that cannot be named. What has read it is never valid."""
-
-
 class _KeptFinding(NamedTuple):
     rule: str
     package: str
     finding: Finding
-
-
-class _KeptInput(NamedTuple):
-    """A part of the workspace, or an answer that rules share, that was read."""
-
-    name: str
-    digest: bytes
-    reads: bytes
-    """For an answer the numbers of what it has read, otherwise nothing."""
 
 
 class _KeptPlace(NamedTuple):
@@ -66,13 +54,16 @@ class _KeptPlace(NamedTuple):
 
 
 class _Kept(NamedTuple):
-    inputs: tuple[_KeptInput, ...]
+    inputs: tuple[KeptInput, ...]
     """What was read. The number of an input is its index."""
     places: tuple[_KeptPlace, ...]
     machine: Answers
     """The state of the files outside of the workspace that were read, such as those of an underlay."""
     rules: tuple[str, ...]
     """Names of the rules that ran."""
+
+
+_NOTHING = _Kept((), (), Answers(), ())
 
 
 class KeptFindings:
@@ -88,9 +79,9 @@ class KeptFindings:
         self._name = name
         self._machine = machine
         self._valid: dict[str, _KeptPlace] = {}
-        kept = file.read(lambda found: found == name, self._codec).get(name)
-        self._kept = kept if kept is not None and _is_consistent(kept) and machine.is_unchanged(kept.machine) else None
-        self._current: _Current | None = None
+        kept = file.read(lambda found: found == name, self._codec).get(name, _NOTHING)
+        self._kept = kept if _is_consistent(kept) and machine.is_unchanged(kept.machine) else _NOTHING
+        self._current: CurrentValues | None = None
 
     @property
     def places(self) -> frozenset[str]:
@@ -99,105 +90,80 @@ class KeptFindings:
 
     def restore(self, handles: Handles, rules: Sequence[Rule]) -> None:
         """Give the findings whose inputs are the same in the newly loaded workspace to the engine, as results of their rules."""
-        kept, workspace = self._kept, handles.workspace
         by_name = {rule.name: rule for rule in rules if rule.suppressions is None}
-        if kept is None or kept.rules != tuple(sorted(by_name)):
+        if self._kept.rules != tuple(sorted(by_name)):
             return
-        self._current = _Current(handles)
-        changed = self._current.changed(kept.inputs)
-        self._valid = {place.place: place for place in kept.places if changed.isdisjoint(_numbers(place.reads))}
+        self._current = CurrentValues(handles)
+        changed = self._current.changed(self._kept.inputs)
+        self._valid = {place.place: place for place in self._kept.places if changed.isdisjoint(unpacked(place.reads))}
         found: dict[tuple[str, str], list[Issue]] = {(path, rule): [] for path in self._valid for rule in by_name}
         for place in self._valid.values():
             for name, owner, finding in place.found:
                 found[place.place, name].append(Issue(by_name[name], owner, finding))
-        packages = {package.path: package for package in workspace.packages}
-        for at, rule, package in _places(by_name.values(), packages):
+        for at, rule, package in _places(by_name.values(), handles.workspace.packages):
             if at in self._valid:
-                results_of(rule, package, workspace, partial(Results, tuple(found[at, rule.name])))
+                results_of(rule, package, handles.workspace, partial(Results, tuple(found[at, rule.name])))
 
     def store(self, recorder: Recorder, handles: Handles, rules: Sequence[Rule]) -> None:
         """Keep the findings of this run, without those of a place where a rule has crashed or has read an input without a name.
 
         Nothing is kept if a file outside of the workspace changed during the run.
         """
-        workspace = handles.workspace
         checks = [rule for rule in rules if rule.suppressions is None]
-        answers: dict[str, list[tuple[Cell, Results]]] = {}
-        for place, rule, package in _places(checks, {package.path: package for package in workspace.packages}):
+        computed = self._computed(recorder, handles.workspace, checks)
+        if not self._machine.steady or (not computed and len(self._valid) == len(self._kept.places)):
+            return
+        current = self._current or CurrentValues(handles)
+        names = current.names(recorder)
+        sets = ReadSets(names)
+        places = [_Place(place.place, self._names(place.reads), place.found) for place in self._valid.values()]
+        places += _read_places(computed, names, sets)
+        reads_of = self._reads_of(names, sets)
+        numbers: dict[str, int] = {}
+        inputs: list[KeptInput] = []
+        for name, reads in _in_order([name for place in places for name in place.reads], reads_of):
+            numbers[name] = len(inputs)
+            inputs.append(KeptInput(name, current.digest(name), packed(map(numbers.__getitem__, reads))))
+        record = _Kept(
+            inputs=tuple(inputs),
+            places=tuple([_KeptPlace(at, packed(map(numbers.__getitem__, reads)), found) for at, reads, found in places]),
+            machine=self._machine.answers,
+            rules=tuple(sorted(rule.name for rule in checks)),
+        )
+        self._file.write({self._name: record}, self._codec, lambda names: [name for name in names if name.startswith(RECORD)])
+
+    def _computed(self, recorder: Recorder, workspace: Workspace, rules: Iterable[Rule]) -> _Computed:
+        """Return the results that were computed in this run, by place, each with its answer."""
+        computed: _Computed = {}
+        for place, rule, package in _places(rules, workspace.packages):
             question = question_of(rule, package.path if package is not None else None)
             answer = recorder.answered(workspace.memo, question) if place not in self._valid else None
             if answer is not None and isinstance(answer[1], Results):
-                answers.setdefault(place, []).append((answer[0], answer[1]))
-        known = self._kept.places if self._kept is not None else ()
-        if not self._machine.steady or (not answers and len(self._valid) == len(known)):
-            return
-        current = self._current or _Current(handles)
-        names = current.names(recorder)
-        sets = ReadSets(names)
-        places = [(place.place, self._names(place.reads), place.found) for place in self._valid.values()]
-        places += _read_places(answers, names, sets)
-        cells = {name: cell for cell, name in names.items() if name.startswith(PREFIX)}
-        kept_reads = {kept.name: self._names(kept.reads) for kept in (self._kept.inputs if self._kept is not None else ())}
-
-        def reads_of(name: str) -> list[str]:
-            below = sets.of([cells[name]]) if name in cells else None
-            return kept_reads.get(name, []) if below is None else [names.get(cell, _UNKNOWN) for cell in below]
-
-        numbers: dict[str, int] = {}
-        inputs: list[_KeptInput] = []
-        for name, reads in _in_order([name for _, of_place, _ in places for name in of_place], reads_of):
-            numbers[name] = len(inputs)
-            inputs.append(_KeptInput(name, current.digest(name), _packed(map(numbers.__getitem__, reads))))
-        found = [_KeptPlace(place, _packed(map(numbers.__getitem__, of_place)), issues) for place, of_place, issues in places]
-        rule_names = tuple(sorted(rule.name for rule in checks))
-        record = _Kept(tuple(inputs), tuple(found), self._machine.answers, rule_names)
-        self._file.write({self._name: record}, self._codec, lambda names: [name for name in names if name.startswith(RECORD)])
+                computed.setdefault(place, []).append((answer[0], answer[1]))
+        return computed
 
     def _names(self, reads: bytes) -> list[str]:
-        inputs = self._kept.inputs if self._kept is not None else ()
-        return [inputs[number].name for number in _numbers(reads)]
+        return [self._kept.inputs[number].name for number in unpacked(reads)]
+
+    def _reads_of(self, names: Mapping[Cell, str], sets: ReadSets) -> Callable[[str], list[str]]:
+        """Return a function that returns what an answer has read, in this run or else in the last; [] for an input."""
+        answers = {name: cell for cell, name in names.items() if name.startswith(PREFIX)}
+        earlier = {kept.name: kept.reads for kept in self._kept.inputs}
+
+        def reads_of(name: str) -> list[str]:
+            if name in answers:
+                return [names.get(cell, UNKNOWN) for cell in sets.of([answers[name]])]
+            return self._names(earlier.get(name, b""))
+
+        return reads_of
 
 
-class _Current:
-    """The values in the loaded workspace of what can be read."""
+class _Place(NamedTuple):
+    """The findings of a place, as in :class:`_KeptPlace`, with the names of what was read."""
 
-    def __init__(self, handles: Handles) -> None:
-        self._inputs = Inputs(handles)
-        self._answers = SharedAnswers(handles)
-        self._digests: dict[str, bytes] = {}
-
-    def names(self, recorder: Recorder) -> dict[Cell, str]:
-        return {**self._inputs.names(), **dict(self._answers.named(recorder))}
-
-    def digest(self, name: str) -> bytes:
-        """Return the digest of an input or of a shared answer; b"" if it does not exist."""
-        if name not in self._digests:
-            self._digests[name] = self._compute(name)
-        return self._digests[name]
-
-    def changed(self, inputs: Sequence[_KeptInput]) -> set[int]:
-        """Return the numbers of the inputs with another value than in an earlier run.
-
-        An answer is computed again only if something that it has read has another value.
-        """
-        result: set[int] = set()
-        for number, (name, before, reads) in enumerate(inputs):
-            below = _numbers(reads)
-            if below and before and result.isdisjoint(below):
-                self._digests[name] = before
-            elif not before or self.digest(name) != before:
-                result.add(number)
-        return result
-
-    def _compute(self, name: str) -> bytes:
-        if name == _UNKNOWN:
-            return b""
-        if not name.startswith(PREFIX):
-            return self._inputs.digest(name)
-        try:
-            return digest(self._answers.value(name))
-        except LookupError:
-            return b""
+    place: str
+    reads: list[str]
+    found: tuple[_KeptFinding, ...]
 
 
 def _in_order(names: Iterable[str], reads_of: Callable[[str], list[str]]) -> Iterator[tuple[str, list[str]]]:
@@ -220,26 +186,24 @@ def _in_order(names: Iterable[str], reads_of: Callable[[str], list[str]]) -> Ite
             yield name, reads[name]
 
 
-def _places(rules: Iterable[Rule], packages: Mapping[str, Package]) -> Iterator[tuple[str, Rule, Package | None]]:
+def _places(rules: Iterable[Rule], packages: Sequence[Package]) -> Iterator[tuple[str, Rule, Package | None]]:
     """Yield each place of findings with the rule and the package; a rule for workspaces has a place of its own."""
     for rule in rules:
         if rule.package is not None:
-            yield from ((path, rule, package) for path, package in packages.items())
+            yield from ((package.path, rule, package) for package in packages)
         else:
             yield f"{_RULE}{rule.name}", rule, None
 
 
-def _read_places(
-    answers: Mapping[str, Sequence[tuple[Cell, Results]]], names: Mapping[Cell, str], sets: ReadSets
-) -> Iterator[tuple[str, list[str], tuple[_KeptFinding, ...]]]:
-    """Yield the places of the results that were computed in this run, with the names of what was read and the findings."""
-    for place, of_place in answers.items():
-        cells = sets.of(answer for answer, _ in of_place)
-        if any(results.crashes for _, results in of_place) or not all(cell in names for cell in cells):
+def _read_places(computed: _Computed, names: Mapping[Cell, str], sets: ReadSets) -> Iterator[_Place]:
+    """Yield the places of computed results, unless a rule has crashed there or has read an input without a name."""
+    for place, results in computed.items():
+        cells = sets.of(answer for answer, _ in results)
+        if any(of_rule.crashes for _, of_rule in results) or not all(cell in names for cell in cells):
             continue
-        issues = [issue for _, results in of_place for issue in results.issues]
+        issues = [issue for _, of_rule in results for issue in of_rule.issues]
         found = tuple([_KeptFinding(issue.rule.name, issue.package, issue.finding) for issue in issues])
-        yield place, [names[cell] for cell in cells], found
+        yield _Place(place, [names[cell] for cell in cells], found)
 
 
 def _is_consistent(kept: _Kept) -> bool:
@@ -248,18 +212,8 @@ def _is_consistent(kept: _Kept) -> bool:
     This may not be so in a manipulated file.
     """
     try:
-        in_order = all(max(_numbers(entry.reads), default=-1) < number for number, entry in enumerate(kept.inputs))
-        known = all(max(_numbers(place.reads), default=-1) < len(kept.inputs) for place in kept.places)
+        in_order = all(max(unpacked(entry.reads), default=-1) < number for number, entry in enumerate(kept.inputs))
+        known = all(max(unpacked(place.reads), default=-1) < len(kept.inputs) for place in kept.places)
     except ValueError:  # not an array of 32-bit integers
         return False
     return in_order and known and {finding.rule for place in kept.places for finding in place.found} <= set(kept.rules)
-
-
-def _packed(numbers: Iterable[int]) -> bytes:
-    return array("I", numbers).tobytes()
-
-
-def _numbers(reads: bytes) -> array[int]:
-    numbers = array("I")
-    numbers.frombytes(reads)
-    return numbers

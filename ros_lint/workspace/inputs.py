@@ -31,7 +31,6 @@ class Inputs:
         self._workspace = handles.workspace
         members, self._world = inputs_of(self._workspace.world)
         self._mappings: dict[str, RecordedMapping[Any]] = {"name": self._workspace.recorded_names, "member": members}
-        self._digests: dict[str, bytes] = {}
 
     def names(self) -> dict[Cell, str]:
         """Return the name of each input that has been read."""
@@ -46,14 +45,9 @@ class Inputs:
         return result
 
     def digest(self, name: str) -> bytes:
-        """Return a digest of the value of an input, the same in each process; zeros for an input that does not exist.
-
-        The workspace must not be loaded again between two calls.
-        """
-        if name not in self._digests:
-            value = next(self._values(name), _NOTHING)
-            self._digests[name] = _ABSENT if value is _NOTHING else digest(value)
-        return self._digests[name]
+        """Return a digest of the value of an input, the same in each process; zeros for an input that does not exist."""
+        value = next(self._values(name), _NOTHING)
+        return _ABSENT if value is _NOTHING else digest(value)
 
     def _values(self, name: str) -> Iterator[object]:
         kind, _, rest = name.partition(" ")

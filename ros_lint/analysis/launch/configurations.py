@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import configurations_read, include_resolver, launch_file
+from ros_lint.analysis.launch.includes import configurations_read, include_resolver
+from ros_lint.analysis.launch.workspace_files import launch_file
 from ros_lint.analysis.memo import cached_by_name, cached_by_workspace
 from ros_lint.base.text import Span
 from ros_lint.collectors.symbolic_text import configurations, is_plain

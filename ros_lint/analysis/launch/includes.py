@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
-from ros_lint.analysis.memo import cached_by_name, cached_by_package, cached_by_workspace
-from ros_lint.base.paths import parent, resolve, strip_folder
+from ros_lint.analysis.launch.workspace_files import file_owners, launch_file, launch_places
+from ros_lint.analysis.memo import cached_by_name, cached_by_workspace
+from ros_lint.base.paths import parent, resolve
 from ros_lint.base.text import Span
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, fill, installed_place, is_plain, is_settled, named_in
 from ros_lint.facts.launch import ACCEPTED_PROBLEMS, LaunchAction, LaunchFile, LaunchValue, values_of_action, walk_actions
-from ros_lint.facts.sources import ParameterFile
 from ros_lint.workspace.model import Package, Workspace
-
-File = TypeVar("File", LaunchFile, ParameterFile)
 
 
 class InstalledLaunchFile(NamedTuple):
@@ -46,53 +44,6 @@ class _Own(NamedTuple):
     complete: bool
     includes: tuple[str, ...]
     """The paths of the launch files of the workspace that the file certainly includes."""
-
-
-class _Places(NamedTuple):
-    """The places below share/<package> to which a package installs its launch files."""
-
-    sources: Mapping[str, tuple[str, ...]]
-    """The paths of the launch files by install path. Several files, or one file twice, may be installed to one path."""
-    installed: Mapping[str, str]
-    """The first install path of each launch file, by its path."""
-
-
-def installed_below_share(package: Package, files: Iterable[File]) -> Iterator[tuple[File, str]]:
-    """Yield the files that the package installs below share/<package>, each with its path below that folder."""
-    by_source = {strip_folder(package.path, file.path): file for file in files}
-    share = f"share/{package.name}/"
-    for provided in package.built.products.installs if by_source else ():
-        file = by_source.get(provided.source)
-        if file is not None and provided.path.startswith(share):
-            yield file, provided.path[len(share) :]
-
-
-@cached_by_workspace
-def _owners(workspace: Workspace) -> Mapping[str, Package]:
-    """Return the packages that contain the launch files, by path of the launch file."""
-    return {file.path: package for package in workspace.packages for file in package.launch}
-
-
-@cached_by_package
-def _launch_files(package: Package, _: Workspace) -> Mapping[str, LaunchFile]:
-    return {file.path: file for file in package.launch}
-
-
-@cached_by_package
-def _places(package: Package, _: Workspace) -> _Places:
-    sources: dict[str, tuple[str, ...]] = {}
-    installed: dict[str, str] = {}
-    for file, path in installed_below_share(package, package.launch):
-        sources[path] = (*sources.get(path, ()), file.path)
-        installed.setdefault(file.path, path)
-    return _Places(sources, installed)
-
-
-@cached_by_name
-def launch_file(workspace: Workspace, path: str) -> LaunchFile | None:
-    """Return the launch file of a package at ``path``, None if there is none. A question reads only this file."""
-    owner = _owners(workspace).get(path)
-    return _launch_files(owner, workspace).get(path) if owner is not None else None
 
 
 @cached_by_name
@@ -176,8 +127,8 @@ class IncludeResolver:
 
     def place(self, file: LaunchFile) -> InstalledLaunchFile | None:
         """Return a launch file with its install path, or None if it is not installed."""
-        owner = _owners(self._workspace).get(file.path)
-        path = _places(owner, self._workspace).installed.get(file.path) if owner is not None else None
+        owner = file_owners(self._workspace).get(file.path)
+        path = launch_places(owner, self._workspace).installed.get(file.path) if owner is not None else None
         return InstalledLaunchFile(owner, file, path) if owner is not None and path is not None else None
 
     def included(self, path: str) -> LaunchFile | None:
@@ -200,7 +151,7 @@ class IncludeResolver:
     def _only_file(self, package: str, path: str) -> InstalledLaunchFile | None:
         """Return the launch file that is installed to a path below share/<package>; None if there are none or several."""
         named = self._workspace.by_name.get(package, ())
-        found = [(owner, source) for owner in named for source in _places(owner, self._workspace).sources.get(path, ())]
+        found = [(owner, source) for owner in named for source in launch_places(owner, self._workspace).sources.get(path, ())]
         if len(found) != 1:
             return None
         owner, source = found[0]

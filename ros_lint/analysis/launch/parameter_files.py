@@ -6,21 +6,16 @@ from collections.abc import Mapping
 from posixpath import normpath
 from typing import TYPE_CHECKING, NamedTuple
 
-from ros_lint.analysis.launch.includes import (
-    assigned_configurations,
-    include_resolver,
-    installed_below_share,
-    launch_file,
-    substitute,
-)
-from ros_lint.analysis.memo import cached_by_name, cached_by_package, cached_by_workspace
+from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver, substitute
+from ros_lint.analysis.launch.workspace_files import launch_file, parameter_file, parameter_places
+from ros_lint.analysis.memo import cached_by_name, cached_by_workspace
 from ros_lint.collectors.symbolic_text import installed_place
 from ros_lint.facts.launch import walk_actions
 
 if TYPE_CHECKING:
     from ros_lint.facts.launch import LaunchAction, LaunchFile, LaunchValue
     from ros_lint.facts.sources import ParameterFile
-    from ros_lint.workspace.model import Package, Workspace
+    from ros_lint.workspace.model import Workspace
 
 
 class NodeParameterFile(NamedTuple):
@@ -38,32 +33,6 @@ class NodeParameterFile(NamedTuple):
     """The possible namespaces that the action itself sets; ("",) if it sets none."""
 
 
-@cached_by_workspace
-def _owners(workspace: Workspace) -> Mapping[str, Package]:
-    """Return the packages that contain the parameter files, by path of the file."""
-    return {file.path: package for package in workspace.packages for file in package.parameter_files}
-
-
-@cached_by_package
-def _by_path(package: Package, _: Workspace) -> Mapping[str, ParameterFile]:
-    return {file.path: file for file in package.parameter_files}
-
-
-@cached_by_package
-def _installed(package: Package, _: Workspace) -> Mapping[str, frozenset[str]]:
-    """Return the paths of the parameter files of a package, by the path below share/<package> to which they are installed."""
-    result: dict[str, frozenset[str]] = {}
-    for file, path in installed_below_share(package, package.parameter_files):
-        result[path] = result.get(path, frozenset()) | {file.path}
-    return result
-
-
-@cached_by_name
-def _parameter_file(workspace: Workspace, path: str) -> ParameterFile | None:
-    owner = _owners(workspace).get(path)
-    return _by_path(owner, workspace).get(path) if owner is not None else None
-
-
 class ParameterContents:
     """Finds the parameter files of the workspace by the paths in launch files."""
 
@@ -74,7 +43,7 @@ class ParameterContents:
         """Return the parameter file at a path in an install space or relative to the base folder; None if it is not known."""
         place = installed_place(path)
         if place is None:
-            return _parameter_file(self._workspace, normpath(path))
+            return parameter_file(self._workspace, normpath(path))
         return self.installed(place.package, place.share or "")
 
     def installed(self, package: str, path: str) -> ParameterFile | None:
@@ -83,8 +52,8 @@ class ParameterContents:
         If two files are installed to one path, it is unknown which of them is used.
         """
         named = self._workspace.by_name.get(package, ())
-        found = {source for owner in named for source in _installed(owner, self._workspace).get(path, ())}
-        return _parameter_file(self._workspace, found.pop()) if len(found) == 1 else None
+        found = {source for owner in named for source in parameter_places(owner, self._workspace).sources.get(path, ())}
+        return parameter_file(self._workspace, found.pop()) if len(found) == 1 else None
 
 
 @cached_by_workspace

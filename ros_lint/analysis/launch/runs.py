@@ -5,7 +5,8 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver, launch_file
+from ros_lint.analysis.launch.includes import assigned_configurations, include_resolver
+from ros_lint.analysis.launch.workspace_files import launch_file
 from ros_lint.analysis.memo import cached_by_name
 from ros_lint.collectors.symbolic_text import (
     UNKNOWN,

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.analysis.launch.configurations import include_tree
-from ros_lint.analysis.launch.includes import IncludeResolver, include_resolver, launch_file
+from ros_lint.analysis.launch.includes import IncludeResolver, include_resolver
+from ros_lint.analysis.launch.workspace_files import launch_file
 from ros_lint.analysis.memo import cached_by_name, cached_by_workspace
 from ros_lint.collectors.symbolic_text import configurations
 from ros_lint.facts.launch import LaunchAction, LaunchFile, values_of_action, walk_actions
