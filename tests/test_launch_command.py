@@ -172,6 +172,20 @@ def test_tags_of_other_packages_are_listed() -> None:
     assert code == 0
 
 
+def test_tags_that_packages_of_the_workspace_may_add_are_listed() -> None:
+    setup = "entry_points={'launch.frontend.launch_extension': ['q = q']}"
+    adding = {
+        "q/package.xml": manifest_text("q", build_type="ament_python"),
+        "q/setup.py": f"from setuptools import setup\nsetup(name='q', version='0.1.0', packages=['q'], {setup})\n",
+        "q/q/__init__.py": "",
+    }
+    files = package("p", {"launch/a.launch.xml": xml('<own_tag a="b"/>\n<log message="x"/>')})
+    output, _, code = ask({**files, **adding}, "p", "a.launch.xml")
+    assert "not analysed:\n  p/launch/a.launch.xml:2:2: what <own_tag> starts is not known\n\n" in output
+    assert code == 0
+    assert ask(files, "p", "a.launch.xml")[2] == 1
+
+
 def test_actions_of_unknown_classes_are_listed() -> None:
     python = """
 from launch import LaunchDescription

@@ -28,6 +28,7 @@ from ros_lint.analysis.launch.parameter_files import NodeParameterFile, given_pa
 from ros_lint.analysis.launch.remappings import UnusedRemapping, unused_remappings
 from ros_lint.analysis.launch.runs import FailingExpression, PassedFile, expand_defaults, failing_expressions, passed_files
 from ros_lint.analysis.launch.scopes import PlacedInclude, ScopeLeaks, includes, scope_leaks
+from ros_lint.analysis.launch.tags import with_added_tags
 from ros_lint.analysis.launch.workspace_files import launch_file
 from ros_lint.collectors.conditional_text import are_consistent
 from ros_lint.collectors.launch.detect import LAUNCH_FILE_NAMES
@@ -91,5 +92,6 @@ __all__ = [
     "used_files",
     "values_of_action",
     "walk_actions",
+    "with_added_tags",
     "wrong_types",
 ]

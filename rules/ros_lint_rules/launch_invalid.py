@@ -78,7 +78,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
             *_newer(launch_file.file.version_problems, workspace.target),
             *too_new(launch_file.file.syntax, workspace.target.chosen),
         )
-        problems_here = launch_file.file.problems
+        problems_here = launch.with_added_tags(launch_file.file, workspace).problems
         rejected = (problem for problem in problems_here if problem.kind not in launch.ACCEPTED_PROBLEMS)
         problems = (*rejected, *newer)
         if not problems:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ros_lint.analysis.launch.includes import AcceptedArguments, include_resolver
 from ros_lint.analysis.launch.node_programs import node_name
 from ros_lint.analysis.launch.parameter_files import parameter_contents
+from ros_lint.analysis.launch.tags import with_added_tags
 from ros_lint.base.paths import resolve, strip_folder
 from ros_lint.base.suggestions import did_you_mean, similar_names
 from ros_lint.base.text import read
@@ -47,7 +48,7 @@ class LaunchFileLookup:
     def __init__(self, workspace: Workspace, tree: Tree) -> None:
         self._workspace = workspace
         self._tree = tree
-        self._sources = {file.path: file for package in workspace.packages for file in package.launch}
+        self._sources = {file.path: with_added_tags(file, workspace) for package in workspace.packages for file in package.launch}
         self._includes = include_resolver(workspace)
         self._results: dict[str, LaunchFile | Absent] = {}
         self._parameters: dict[str, ParameterFile | None] = {}
