@@ -55,7 +55,8 @@ def _steps(name: str, count: int, folder: Path) -> int:
         return trace
 
     growth.write(LADDERS[name](count), folder)
-    growth.check(str(folder))  # imports and caches are not counted
+    for _ in range(2):
+        growth.check(str(folder))  # imports and caches are not counted
     before = sys.gettrace()
     sys.settrace(trace)
     try:
@@ -70,14 +71,14 @@ def _warm() -> None:
     growth.warm_up()
 
 
-@pytest.mark.parametrize("name", sorted(LADDERS))
+@pytest.mark.parametrize("name", sorted(LADDERS.keys() - EXCEPTIONS.keys()))
 def test_steps_grow_linearly(tmp_path: Path, name: str) -> None:
     _warm()
     few, double, many = (_steps(name, count, tmp_path / str(count)) for count in (_FEW, 2 * _FEW, 4 * _FEW))
     if many - few < _LITTLE:
         return
     exponent = math.log2((many - double) / max(double - few, 1))  # differences are free of the fixed costs
-    assert exponent <= _WANTED or name in EXCEPTIONS, f"{exponent:.2f}: {few:,}, {double:,} and {many:,} steps"
+    assert exponent <= _WANTED, f"{exponent:.2f}: {few:,}, {double:,} and {many:,} steps"
 
 
 def test_exceptions_name_ladders() -> None:
