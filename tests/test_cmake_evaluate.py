@@ -147,6 +147,15 @@ def test_an_endless_script_stops_at_the_limit(text: str) -> None:
     assert hidden(run(text)) & Facet.EXECUTABLES
 
 
+def test_several_unknown_elements_are_any_number_of_rounds() -> None:
+    loops = "".join(f"foreach(i{depth} $ENV{{A}} $ENV{{B}} $ENV{{C}})\n" for depth in range(7))
+    script = run(
+        f"{loops}install(FILES package.xml DESTINATION lib/pkg)\n{'endforeach()' * 7}".replace(")endforeach", ")\nendforeach")
+    )
+    assert paths(script) == {"lib/pkg/package.xml": True}
+    assert hidden(script) == Facet(0), "6^7 rounds exceed the budget, 2^7 do not"
+
+
 @pytest.mark.parametrize(
     "loop", ["foreach(i RANGE 900)\n{}endforeach()", "while(n LESS 900)\nmath(EXPR n ${{n}}+1)\n{}endwhile()"]
 )

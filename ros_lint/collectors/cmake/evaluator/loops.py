@@ -140,6 +140,8 @@ def _run_rounds(run: Run, body: Body, names: list[str], rounds: list[tuple[str, 
     for index in range(start, len(rounds)):
         items = rounds[index]
         if items[0] in (HOLE, UNPAIRED_HOLE):
+            if index > start and rounds[index - 1] == items:
+                continue  # any number of rounds, twice, is any number of rounds
             exits = _run_any_number(run, partial(_run_round, run, body, names, items[:1] * len(names)))
         else:
             plain = tuple(strip_mark(item)[0] for item in items)
