@@ -54,13 +54,24 @@ def by_catkin_pkg(data: bytes) -> Verdict:
     """Return the manifest as ``parse_package`` reads it: UTF-8, universal line ends."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # catkin_pkg uses old names of pyparsing
-        try:
-            text = io.TextIOWrapper(io.BytesIO(data), encoding="utf8").read()
-            package = parse_package_string(text, warnings=[])
-        except (InvalidPackage, AssertionError, ValueError):
+        package = _parsed(data)
+        if package is None:
             return Verdict(False)
         result = tuple(_catkin_evaluated(package, context) for context in CONTEXTS)
     return Verdict(True, package.name, package.version, package.package_format, result)
+
+
+def catkin_pkg_accepts(data: bytes) -> bool:
+    """Return whether catkin_pkg accepts the manifest. Conditions are not evaluated, which takes most of the time."""
+    return _parsed(data) is not None
+
+
+def _parsed(data: bytes) -> Package | None:
+    try:
+        text = io.TextIOWrapper(io.BytesIO(data), encoding="utf8").read()
+        return parse_package_string(text, warnings=[])
+    except (InvalidPackage, AssertionError, ValueError):
+        return None
 
 
 def _catkin_evaluated(package: Package, context: Mapping[str, str]) -> object:
