@@ -9,7 +9,7 @@ from ros_lint.analysis.finding import Fix
 from ros_lint.base.diff import unified
 from ros_lint.base.edit import Edit
 from ros_lint.base.text import Span, Text
-from ros_lint.base.tree import DiskTree
+from ros_lint.base.tree import DiskTree, MemoryTree
 from ros_lint.engine import edits
 
 SOURCE = Text("f", "one\r\ntwo\nthree")
@@ -37,11 +37,21 @@ def test_a_blank_line_goes_with_the_lines_between_two_blank_lines() -> None:
     assert removed(0) == "\nb\n  c\n\nd\n"
 
 
+def test_a_line_that_loses_its_text_stays() -> None:
+    source = Text("f", "a\n\nbc\n\nd\n")
+    for start in (3, 4):
+        edited = edits.apply([Fix("", (Edit(source.span(start, 5), ""),))], lambda path: source)["f"]
+        assert edited == source.text[:start] + source.text[5:]
+
+
 def test_inserted_lines_end_like_the_line_at_their_place() -> None:
     """In a file with both kinds of line ends."""
     source = Text("f", "one\r\ntwo\nthree\r\n")
     fixes = [Fix("", (Edit(source.span(place, place), "a\n"),)) for place in (0, 5, 9, 16)]
     assert edits.apply(fixes, lambda path: source)["f"] == "a\r\none\r\na\ntwo\na\r\nthree\r\na\r\n"
+    empty = Text("f", "\r\ntwo\n")
+    first, last = (Fix("", (Edit(empty.span(place, place), "a\n"),)) for place in (0, 6))
+    assert edits.apply([first, last], lambda path: empty)["f"] == "a\r\n\r\ntwo\na\n"
 
 
 def test_edits_do_not_shift_each_other() -> None:
@@ -170,6 +180,15 @@ def test_a_file_that_cannot_be_read_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(edits.EditError, match="^folder: cannot be read: ."):
         edits.text_of(tree, "folder")
     assert edits.text_of(tree, "new").text == ""
+
+
+def test_an_error_without_a_number_gives_its_reason() -> None:
+    class Refusing(MemoryTree):
+        def read(self, path: str) -> bytes:
+            raise OSError("too large")
+
+    with pytest.raises(edits.EditError, match="^f: cannot be read: too large$"):
+        edits.text_of(Refusing({}), "f")
 
 
 def test_a_device_is_written_directly() -> None:

@@ -115,6 +115,14 @@ def test_unsaved_files_are_part_of_the_result_and_refused_fixes_are_reported() -
     ]
 
 
+def test_a_fix_is_tried_if_an_earlier_fix_that_it_overlaps_is_skipped() -> None:
+    one, two = issue(0, "p"), issue(1, "q")
+    overlapping = two._replace(finding=two.finding._replace(fix=Fix("t", (Edit(one.finding.span, "x"),))))
+    result = fix(RegressionTrials([one, overlapping], {"s0": "p"}))
+    assert [issue.finding.subject for issue in result.applied] == ["s1"]
+    assert [issue.finding.subject for issue, _ in result.skipped] == ["s0"]
+
+
 @pytest.mark.parametrize(
     ("package", "subject", "suspects"),
     [
@@ -150,17 +158,20 @@ def test_a_line_of_the_new_text_corresponds_to_a_line_of_the_old_text() -> None:
 # --- with a workspace ----------------------------------------------------------------------------------------------
 
 
-def rule(name: str, replacements: Mapping[str, str | None], *, safe: bool = True, path: str = "", **finding: Any) -> Rule:
+def rule(
+    name: str, replacements: Mapping[str, str | None], *, safe: bool = True, path: str = "", line: int = 0, **finding: Any
+) -> Rule:
     """Return a rule that finds dependencies, with fixes that replace their names; None if there is no fix.
 
-    ``path`` is the file that the fixes edit if it is not that of the finding.
+    ``path`` and ``line`` are the place that the fixes edit if it is not that of the finding.
     """
 
     def found(package: Package, _: Workspace) -> Iterator[Finding]:
         for depend in package.manifest.depends if package.manifest else ():
             if depend.name in replacements:
                 new, place = replacements[depend.name], depend.name_span
-                edit = Edit(place._replace(path=path or place.path), new or "")
+                edited = place._replace(path=path or place.path, line=line or place.line, end_line=line or place.end_line)
+                edit = Edit(edited, new or "")
                 change = None if new is None else Fix("t", (edit,), safe)
                 yield Finding(f"{name} of {depend.name}", place, depend.name, fix=change, **finding)
 
@@ -218,6 +229,14 @@ def test_a_fix_may_cause_findings_that_fixes_of_the_next_round_resolve() -> None
     assert outcome(trials_of(one, rule("two", {"bb": " bb"}))) == ("aa,aa", [NEW])
     overlapping = trials_of(one, two, rule("three", {"bb": "dd"}))
     assert outcome(overlapping) == ("aa,aa", ["it would cause a new finding: three of bb"])
+    assert outcome(trials_of(one, rule("two", {"bb": "cc"}, line=99))) == ("aa,aa", [NEW])
+
+
+def test_the_first_and_the_last_two_trials_are_kept() -> None:
+    trials = trials_of(rule("one", {"aa": "bb"}))
+    made = [trials.trial({"new": str(number).encode()}) for number in range(6)]
+    assert [trials.trial(made[number].changed) is made[number] for number in (5, 4, 0)] == [True] * 3
+    assert trials.trial(made[3].changed) is not made[3]
 
 
 def test_only_selected_rules_fix_their_findings() -> None:
@@ -225,6 +244,7 @@ def test_only_selected_rules_fix_their_findings() -> None:
     assert outcome(trials_of(one, two, selected={"two"})) == ("cc,cc", [])
     assert outcome(trials_of(one, two, only={"two"})) == ("cc,cc", [])
     assert outcome(trials_of(one, two, only=())) == ("aa,aa", [])
+    assert outcome(trials_of(one._replace(default=False))) == ("bb,bb", [])
 
 
 def test_unsafe_fixes_are_applied_only_on_request() -> None:

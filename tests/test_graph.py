@@ -349,6 +349,25 @@ def test_paths_end_in_a_knot_of_cycles() -> None:
     assert found.more
 
 
+def test_the_first_paths_of_very_many_are_found() -> None:
+    """A search in the order of the lengths so far would visit 2**40 paths."""
+    edges: dict[str, list[str]] = {}
+    for number in range(40):
+        sides = [f"{number:02}{side}" for side in "ab"]
+        edges[f"{number:02}"] = sides
+        edges |= {side: [f"{number + 1:02}"] for side in sides}
+    found = paths(graph_of(edges).needs.__getitem__, "00", "40", 3)
+    assert [path[-3:] for path in found.paths] == [("39", "39a", "40"), ("39", "39b", "40"), ("39", "39a", "40")]
+    assert found.more
+
+
+def test_a_search_that_is_too_long_ends_with_what_it_has_found() -> None:
+    clique = [f"k{number}" for number in range(8)]
+    edges = {name: ["a", *(other for other in clique if other != name)] for name in clique}
+    found = paths(graph_of({**edges, "a": ["b", *clique]}).needs.__getitem__, "a", "b", 2)
+    assert found == ((("a", "b"),), True)
+
+
 def test_metrics_are_those_of_networkx_where_there_is_no_cycle() -> None:
     for seed in range(200):
         random = Random(seed)

@@ -290,7 +290,7 @@ def _joined(edits: Sequence[Edit]) -> str:
 
 def _collide(first: Edit, second: Edit) -> bool:
     left, right = first.span, second.span
-    return left.path == right.path and left[1:3] < right[3:5] and right[1:3] < left[3:5]
+    return left.path == right.path and left[1:3] < right[3:] and right[1:3] < left[3:]
 
 
 def _ends_with_blank_line(text: str) -> bool:
