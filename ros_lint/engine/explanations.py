@@ -26,19 +26,19 @@ def without_explained(issues: Sequence[Issue], fixed_severities: Container[str] 
     for number, issue in enumerate(issues):
         for subject in {issue.finding.subject, ""}:  # "" stands for every subject
             places.setdefault((issue.package, issue.rule.name, subject), []).append(number)
-    causes = {issue: _explained_by(issue, issues, places) for issue in issues if issue.finding.explains}
+    causes = {number: _explained_by(issue, issues, places) for number, issue in enumerate(issues) if issue.finding.explains}
     consequences = {explained for group in causes.values() for explained in group}
-    explained_issues: set[Issue] = set()
-    pending = [issue for issue in causes if issue not in consequences]
+    hidden: set[int] = set()
+    pending = [number for number in causes if number not in consequences]
     while pending:
-        new = [issue for issue in causes[pending.pop()] if issue not in explained_issues]
-        explained_issues.update(new)
-        pending += [issue for issue in new if issue in causes]
+        new = [number for number in causes[pending.pop()] if number not in hidden]
+        hidden.update(new)
+        pending += [number for number in new if number in causes]
     return tuple(
         [
-            _with_explained(issue, [other for other in causes.get(issue, ()) if other in explained_issues], fixed_severities)
-            for issue in issues
-            if issue not in explained_issues
+            _with_explained(issue, [issues[other] for other in causes.get(number, ()) if other in hidden], fixed_severities)
+            for number, issue in enumerate(issues)
+            if number not in hidden
         ]
     )
 
@@ -47,15 +47,17 @@ _Places = dict[tuple[str, str, str], list[int]]
 """The numbers of issues by their package, rule and subject."""
 
 
-def _explained_by(cause: Issue, issues: Sequence[Issue], places: _Places) -> list[Issue]:
-    """Return the elements of ``issues`` that ``cause`` explains, in their order."""
+def _explained_by(cause: Issue, issues: Sequence[Issue], places: _Places) -> list[int]:
+    """Return the numbers of the elements of ``issues`` that ``cause`` explains, in their order."""
     keys = {(cause.package, consequence.rule, consequence.subject) for consequence in cause.finding.explains}
     numbers = sorted({number for key in keys for number in places.get(key, ())})
-    return [
-        issue
-        for issue in map(issues.__getitem__, numbers)
-        if issue is not cause and issue.finding.confidence <= cause.finding.confidence and _in_all_distros_of(issue, cause)
-    ]
+    return [number for number in numbers if _explains(cause, issues[number])]
+
+
+def _explains(cause: Issue, issue: Issue) -> bool:
+    """Return whether ``cause``, whose consequences include one with the rule and subject of ``issue``, explains ``issue``."""
+    is_as_sure = issue.finding.confidence <= cause.finding.confidence
+    return issue is not cause and is_as_sure and _in_all_distros_of(issue, cause)
 
 
 def _in_all_distros_of(issue: Issue, cause: Issue) -> bool:

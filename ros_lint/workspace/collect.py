@@ -7,10 +7,10 @@ Only this module decides which collector reads which file.
 from __future__ import annotations
 
 import errno
-import gc
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from ros_lint.base import garbage
 from ros_lint.base.processes import available_cores
 from ros_lint.base.recorded_tree import NOT_READ, RecordedTree, content_digest
 from ros_lint.base.text import Text, file_start, read
@@ -129,15 +129,10 @@ def collect_all(
         chunks = _in_processes(disk, uncached, processes)
     else:
         chunks = (_collect_chunk(disk, uncached[at : at + 100]) for at in range(0, len(uncached), 100))
-    enabled = gc.isenabled()
-    gc.disable()  # facts have no cycles, and the garbage collector would traverse all of them repeatedly
-    try:
+    with garbage.paused():  # facts have no cycles
         for chunk in chunks:
             fresh.update(chunk)
             tick(len(read_files) + len(fresh))
-    finally:
-        if enabled:
-            gc.enable()
     cache.store(disk, fresh)
     read_files.update(fresh)
     if isinstance(tree, RecordedTree):

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ros_lint.base import garbage
 from ros_lint.base.paths import is_below
 from ros_lint.base.text import Text, read
 from ros_lint.base.tree import text_of
@@ -51,6 +52,8 @@ class Project:
 
     def reopen(self) -> None:
         """Read the settings and the changed files again. Raises UserError."""
+        garbage.release_objects()
+        self._is_checked = False
         self._request: Request = parse_request(self._options, self._environment)
         self._session: Session = open_session(self._request, self._progress, again=True)
 
@@ -74,8 +77,12 @@ class Project:
         Raises KnowledgeError if the data about released packages cannot be read.
         """
         loader = self._session.loader
-        workspaces = loader.load_all(unsaved)
-        report = check_workspaces(self._session, workspaces, self._session.roots)
+        with garbage.paused():
+            workspaces = loader.load_all(unsaved)
+            report = check_workspaces(self._session, workspaces, self._session.roots)
+        if not self._is_checked:
+            self._is_checked = True
+            garbage.keep_objects()  # the next checks keep most of the model
 
         def text(path: str) -> Text | None:
             return read(path, unsaved[path]) if path in unsaved else text_of(loader.tree, path)
