@@ -38,15 +38,15 @@ def are_consistent(conditions: Iterable[LaunchCondition]) -> bool:
 
     The result is False if one condition is the negation of another, or if two conditions require different values of one text.
     """
+    conditions = tuple(conditions)
+    if len({condition.texts for condition in conditions}) == len(conditions):
+        return True  # about different texts
     truths: dict[tuple[tuple[str, ...], str | None], bool] = {}
     values: dict[tuple[str, ...], str] = {}
-    for condition in conditions:
-        question = (condition.texts, condition.equals)
-        if truths.setdefault(question, condition.wanted) is not condition.wanted:
+    for texts, equals, wanted in conditions:
+        if truths.setdefault((texts, equals), wanted) is not wanted:
             return False
-        if not condition.wanted or condition.equals is None:
-            continue
-        if values.setdefault(condition.texts, condition.equals) != condition.equals:
+        if wanted and equals is not None and values.setdefault(texts, equals) != equals:
             return False
     return True
 

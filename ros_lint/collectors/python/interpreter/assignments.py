@@ -25,6 +25,7 @@ from ros_lint.collectors.python.interpreter.values import (
     around,
     cause,
     plain,
+    settled,
     union,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
@@ -67,7 +68,7 @@ def bind(machine: Interpreter, target: ast.expr, value: Value, frame: Frame) -> 
     if isinstance(target, ast.Name):
         around = frame.declared.get(target.id)
         if around is not None and machine.conditions and target.id in around.names:
-            value = machine.joined([Guarded(around.names[target.id], ()), Guarded(value, machine.conditions)])
+            value = machine.joined([Guarded(settled(around.names[target.id]), ()), Guarded(value, machine.conditions)])
         (around or frame).names[target.id] = value
     elif isinstance(target, (ast.Tuple, ast.List)):
         _unpack(machine, target.elts, value, frame)
@@ -198,7 +199,7 @@ def _import_from(machine: Interpreter, node: ast.ImportFrom, frame: Frame) -> No
         if machine.library.is_substitution(alias.name):
             frame.names[alias.asname or alias.name] = machine.library.member(f"{name}.{alias.name}", node, frame.source)
             continue
-        inner = module.names.get(alias.name) if module is not None else None
+        inner = settled(module.names.get(alias.name)) if module is not None else None
         if inner is None:
             full = f"{name}.{alias.name}" if node.module else f"{name}{alias.name}"
             inner = machine.module(full, frame.source, node)

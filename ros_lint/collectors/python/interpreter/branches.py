@@ -22,11 +22,14 @@ from ros_lint.collectors.python.interpreter.values import (
     Exit,
     Frame,
     Guarded,
+    Pending,
     ProgramRaised,
     Value,
     alternatives,
     cause,
     plain,
+    same,
+    settled,
 )
 from ros_lint.collectors.python.string_values import callee
 from ros_lint.facts.launch import LaunchCondition
@@ -133,7 +136,7 @@ def _note_fallbacks(machine: Interpreter, condition: LaunchCondition, present: _
     if tested:
         for name, value in absent.names.items():
             if name in present.names and value is not present.names[name]:
-                machine.fallbacks += [(text, tested) for text in machine.texts(value)]
+                machine.fallbacks += [(text, tested) for text in machine.texts(settled(value))]
 
 
 def _follow(
@@ -170,8 +173,8 @@ def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str,
     for name, value in names.items():
         if name not in frame.names:
             frame.names[name] = value
-        elif frame.names[name] is not value:
-            frame.names[name] = machine.joined([Guarded(frame.names[name], held), Guarded(value, conditions)])
+        elif not same(held_value := frame.names[name], value):
+            frame.names[name] = Pending((Guarded(held_value, held), Guarded(value, conditions)), machine.joined)
 
 
 def _join_exit(machine: Interpreter, frame: Frame, way_out: Exit, around: Conditions) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.python.interpreter.complements import complement, opposite_of
 from ros_lint.collectors.python.interpreter.values import PERHAPS, Conditions, Guarded, Value, around, plain, union
+from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchCondition
 
 if TYPE_CHECKING:
@@ -27,6 +28,9 @@ def store(machine: Interpreter, owner: dict[Any, Value], key: Any, value: Value)
         owner[key] = Guarded(plain(value), (*now, *around(value)))
         return
     before, held = owner[key], around(owner[key])
+    if isinstance(key, str) and UNKNOWN in key:  # the items may have different keys
+        owner[key] = guarded(union([before, Guarded(value, now)]), (machine.fresh(PERHAPS),) if held else ())
+        return
     if held == now:
         owner[key] = Guarded(value, now)
         return

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.python.interpreter.operations import hashable
+from ros_lint.collectors.python.interpreter.recorder import are_unknown
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     Conditions,
@@ -79,6 +80,34 @@ def may_have_more(values: Sequence[Value]) -> bool:
     It is unknown if an element is unknown or may be missing, because such an element represents any number of elements.
     """
     return any(isinstance(value, (Guarded, Unknown)) for value in values)
+
+
+def append(machine: Interpreter, owner: list[Value], value: Value) -> None:
+    """Append an element to a list, if the conditions hold under which the interpreted code runs.
+
+    An unknown element that may be missing represents any number of elements (:func:`may_have_more`). It is therefore not
+    appended again if it is among the last elements and these are all of this kind, as in a loop over unknown values.
+    """
+    if _is_unknown(value) and machine.conditions and are_unknown(machine.conditions):
+        for place in range(len(owner) - 1, -1, -1):
+            last = owner[place]
+            if not (isinstance(last, Guarded) and _is_unknown(last.value) and are_unknown(last.conditions)):
+                break
+            if _is_again(last.value, value) and last.conditions != machine.conditions:
+                owner[place] = Guarded(last.value, (machine.fresh(PERHAPS),))
+                return
+    owner.append(machine.guard(value))
+
+
+def _is_unknown(value: Value) -> bool:
+    return isinstance(value, Unknown) or (isinstance(value, str) and UNKNOWN in value)
+
+
+def _is_again(before: Value, value: Value) -> bool:
+    """Return whether nothing distinguishes an unknown value from an earlier unknown value."""
+    if isinstance(before, Unknown) and isinstance(value, Unknown):
+        return (before.reason, before.condition, before.node) == (value.reason, value.condition, value.node)
+    return isinstance(before, str) and isinstance(value, str) and before == value
 
 
 def subscript(machine: Interpreter, owner: Value, key: Value) -> Value:

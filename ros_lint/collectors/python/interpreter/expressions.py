@@ -41,6 +41,7 @@ from ros_lint.collectors.python.interpreter.values import (
     around,
     cause,
     plain,
+    settled,
     union,
     written,
 )
@@ -62,7 +63,7 @@ def _name(machine: Interpreter, node: ast.Name, frame: Frame) -> Value:
     around: Frame | None = frame.declared.get(node.id, frame)
     while around is not None:
         if node.id in around.names:
-            return around.names[node.id]
+            return settled(around.names[node.id])
         around = around.outer
     return machine.builtin(node, frame)
 

@@ -46,6 +46,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Value,
     guarded_text,
     plain,
+    settled,
     union,
 )
 from ros_lint.collectors.python.syntax import placed
@@ -105,6 +106,7 @@ class Machine(Interpreter):
         source.names.setdefault("__name__", "launch_file")
         with suppress(ProgramRaised):
             execute(self, tree.body, frame)
+        frame.settle()
         source.names = frame.names
         return frame
 
@@ -356,9 +358,9 @@ class Machine(Interpreter):
 
 def _super(arguments: list[Value], frame: Frame) -> Super | None:
     """Return the value of ``super()`` or ``super(cls, instance)``, None if its class or its object is unknown."""
-    cls = plain(arguments[0]) if len(arguments) == 2 else frame.names.get("__class__")
+    cls = plain(arguments[0]) if len(arguments) == 2 else settled(frame.names.get("__class__"))
     if not isinstance(cls, Class):
         return None
-    objects = (plain(value) for value in (arguments[1:] or frame.names.values()))
+    objects = (plain(settled(value)) for value in (arguments[1:] or frame.names.values()))
     instance = next((value for value in objects if isinstance(value, Instance) and value.cls.derives_from(cls)), None)
     return Super(cls, instance) if instance is not None else None

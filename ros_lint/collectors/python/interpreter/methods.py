@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.python.interpreter.dictionaries import entries, guarded, store, value_or_default
-from ros_lint.collectors.python.interpreter.elements import chosen, may_have_more, waits, without
+from ros_lint.collectors.python.interpreter.elements import append, chosen, may_have_more, waits, without
 from ros_lint.collectors.python.interpreter.operations import hashable, of_sets, text_of, texts_made, with_format
 from ros_lint.collectors.python.interpreter.ordering import arranged, is_known, is_small, unique
 from ros_lint.collectors.python.interpreter.path_functions import call_of_path, of_path
@@ -37,6 +37,7 @@ from ros_lint.collectors.python.interpreter.values import (
     cause,
     plain,
     same,
+    settled,
     union,
     written,
 )
@@ -97,7 +98,7 @@ def attribute(machine: Interpreter, owner: Value, node: ast.Attribute, frame: Fr
         member = owner.find(name)
         return member if member is not None else Unknown(f"attribute {name}")
     if isinstance(owner, Source):
-        return owner.names.get(name, Unknown(f"{name} of a module"))
+        return settled(owner.names.get(name, Unknown(f"{name} of a module")))
     if isinstance(owner, FilePath):
         return of_path(owner, name)
     if isinstance(owner, LaunchObject):
@@ -269,7 +270,7 @@ def _of_list(machine: Interpreter, owner: list[Value], name: str, arguments: lis
     match name:
         case "append":
             machine.budget.step()
-            owner.append(machine.guard(first))
+            append(machine, owner, first)
             return None
         case "add" if any(same(element, first) for element in owner):
             return None

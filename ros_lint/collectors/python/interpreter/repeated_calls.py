@@ -24,6 +24,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Unknown,
     Value,
     alternatives,
+    settled,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN
 
@@ -82,7 +83,7 @@ def _read_from_around(function: Function) -> dict[tuple[str, Frame], Value]:
                 around = around.outer
             if around is None:
                 continue
-            value = values[name, around] = around.names[name]
+            value = values[name, around] = settled(around.names[name])
             if isinstance(value, Function) and value.node not in seen:
                 seen.add(value.node)
                 waiting.append(value)

@@ -274,6 +274,7 @@ def _class(machine: Interpreter, node: ast.ClassDef, frame: Frame) -> int:
     bases = [plain(machine.evaluate(base, frame)) for base in node.bases]
     inner = Frame(frame.source, frame, {})
     execute(machine, node.body, inner)
+    inner.settle()
     fields = [
         statement.target.id
         for statement in node.body

@@ -8,7 +8,7 @@ marks stand for its parts that are known only at launch, see :mod:`ros_lint.coll
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import PurePosixPath
 from typing import Any, Final, NamedTuple
 
@@ -104,6 +104,39 @@ class Union:
 
     def __init__(self, values: tuple[Guarded, ...]) -> None:
         self.values = values
+
+
+class Pending:
+    """The value of a name after two branches, as long as the name is not read. :func:`settled` joins its alternatives.
+
+    Most names that branches and loops bind are not read after them, so that most values never have to be joined.
+    """
+
+    __slots__ = ("join", "parts", "value")
+
+    def __init__(self, parts: tuple[Guarded, ...], join: Callable[[Sequence[Guarded]], Value]) -> None:
+        self.parts = parts
+        """The values in the branches, which may be pending themselves; () if they are joined."""
+        self.join = join
+        self.value: Value = None
+
+
+def settled(value: Value) -> Value:
+    """Return ``value``, or its joined alternatives if it is pending."""
+    if type(value) is not Pending:
+        return value
+    waiting = [value]  # no recursion, because a value may be pending after any number of branches
+    while waiting:
+        pending = waiting[-1]
+        inner = [part.value for part in pending.parts if type(part.value) is Pending and part.value.parts]
+        if inner:
+            waiting += inner
+            continue
+        waiting.pop()
+        if pending.parts:
+            parts = [Guarded(settled(part.value), part.conditions) for part in pending.parts]
+            pending.value, pending.parts = pending.join(parts), ()
+    return value.value
 
 
 class SetOf(list[Value]):
@@ -374,7 +407,10 @@ class Exit(NamedTuple):
 
 
 class Frame:
-    """The names of a running function, class body or module, with their values."""
+    """The names of a running function, class body or module, with their values.
+
+    The value of a name may be pending.
+    """
 
     __slots__ = ("declared", "exits", "names", "outer", "returned", "source", "yielded")
 
@@ -388,6 +424,10 @@ class Frame:
         """The conditional exits, such as ``return`` in a branch, of the blocks that are being interpreted, in order."""
         self.returned: list[Guarded] = []
         self.yielded: list[Value] = []
+
+    def settle(self) -> None:
+        """Join the alternatives of all pending values."""
+        self.names.update({name: settled(value) for name, value in self.names.items() if type(value) is Pending})
 
 
 class ProgramRaised(Exception):  # noqa: N818  (it represents any exception of the program)
@@ -408,23 +448,54 @@ def union(values: Iterable[Value]) -> Value:
     The result is Unknown if there are too many alternatives, or none.
     """
     results: list[Guarded] = []
-    known: dict[Conditions, list[Value] | None] = {}  # None for conditions that never hold together
+    by_value: dict[object, list[Guarded]] = {}
     for value in values:
-        for alternative in alternatives(value):
-            conditions = alternative.conditions
-            if conditions not in known:
-                known[conditions] = [] if len(conditions) < 2 or are_consistent(conditions) else None
-            others = known[conditions]
-            if others is not None and not any(same(alternative.value, other) for other in others):
-                others.append(alternative.value)
+        for alternative in _possible(value):
+            equal = by_value.setdefault(_key(alternative.value), [])
+            if not any(same(alternative.value, other.value) and alternative.conditions == other.conditions for other in equal):
+                equal.append(alternative)
                 results.append(alternative)
         if len(results) > MOST:
             return Unknown("one of too many values")
     if not results:
         return Unknown("no value")
-    if all(same(alternative.value, results[0].value) for alternative in results):
+    if len(by_value) == 1 and all(same(alternative.value, results[0].value) for alternative in results):
         return results[0].value
     return Union(tuple(results))
+
+
+def _key(value: Value) -> object:
+    """Return a key that is the same for values that :func:`same` compares as equal."""
+    if isinstance(value, str):
+        return value
+    return type(value) if isinstance(value, (int, float, tuple, type(None))) else id(value)
+
+
+def _possible(value: Value) -> Iterable[Guarded]:
+    """Return the alternatives of a value whose conditions can hold together.
+
+    The alternatives of a :class:`Union` are known to be possible, so that only conditions around it have to be compared.
+    """
+    conditions: Conditions = ()
+    while isinstance(value, Guarded):
+        conditions = _together(conditions, value.conditions) if conditions else value.conditions
+        value = value.value
+    if not isinstance(value, Union):
+        return (Guarded(value, conditions),) if are_consistent(conditions) else ()
+    if not conditions:
+        return value.values
+    if not are_consistent(conditions):
+        return ()
+    texts = {condition.texts for condition in conditions}
+    possible: list[Guarded] = []
+    for alternative in value.values:
+        both = (*conditions, *alternative.conditions)
+        if not texts.isdisjoint([condition.texts for condition in alternative.conditions]):
+            if not are_consistent(both):
+                continue
+            both = tuple(dict.fromkeys(both))
+        possible.append(Guarded(alternative.value, both))
+    return possible
 
 
 def _together(conditions: Conditions, others: Conditions) -> Conditions:
