@@ -1,9 +1,13 @@
 """What Python launch files with too many steps, branches and nested calls hide, and where. Their other actions are known."""
 
+from collections.abc import Sequence
+
 import pytest
 
 from ros_lint.base.text import Text
 from ros_lint.collectors.launch.python.collect import collect
+from ros_lint.collectors.python.interpreter.recorder import Recorder
+from ros_lint.collectors.python.interpreter.values import Guarded
 from ros_lint.facts.launch import LaunchFile, walk_actions
 
 HEAD = """\
@@ -74,3 +78,57 @@ def test_nodes_after_many_ways_out_are_under_few_conditions(branches: str) -> No
     assert min(counts) > 0
     assert max(counts) < 40
     assert sum(counts) > 2 * MANY
+
+
+def joins(monkeypatch: pytest.MonkeyPatch, program: str) -> tuple[LaunchFile, int]:
+    """Return the facts about a program, and how many values of branches are joined while it is interpreted."""
+    count = 0
+    join = Recorder.joined
+
+    def counted(machine: Recorder, values: Sequence[Guarded]) -> object:
+        nonlocal count
+        count += 1
+        return join(machine, values)
+
+    monkeypatch.setattr(Recorder, "joined", counted)
+    return read(program), count
+
+
+SEARCH = (
+    "    y = 'start'\n    for z in " + repr([f"f{i}" for i in range(8)]) + ":\n        w = z + '/x'\n"
+    "        if u(w):\n            y = z\n            break\n"
+)
+
+
+def test_only_names_that_are_read_are_joined(monkeypatch: pytest.MonkeyPatch) -> None:
+    file, count = joins(monkeypatch, f"{GENERATE}{SEARCH}    return LaunchDescription([Node(package='a', executable=y)])\n")
+    assert nodes(file) == ["start", *(f"f{i}" for i in range(8))]
+    assert count < 20, "z and w are not read after the loop"
+
+
+def test_a_deep_chain_of_branches_is_joined_without_recursion(monkeypatch: pytest.MonkeyPatch) -> None:
+    branches = "".join(f"    if u({i}):\n        y = {'bc'[i % 2]!r}\n" for i in range(1_500))
+    file, _ = joins(
+        monkeypatch, f"{GENERATE}    y = 'b'\n{branches}    return LaunchDescription([Node(package='a', executable=y)])\n"
+    )
+    assert file.actions
+    assert not file.opaque
+
+
+def test_a_list_gets_an_unknown_element_once_in_a_loop() -> None:
+    loop = (
+        "    x = ['a']\n    for i in range(40):\n        if u(i):\n"
+        "            x.append(u().name)\n            x.append(f'{u()}/b')\n"
+    )
+    file = read(f"{GENERATE}{loop}    return LaunchDescription([Node(package='a', executable='b', arguments=x)])\n")
+    (action,) = [action for action in walk_actions(file.actions) if action.kind == "node"]
+    assert len(action.arguments) == 3
+
+
+def test_names_changed_in_a_branch_of_a_loop_are_known_after_it() -> None:
+    loop = (
+        "    y = 'a'\n    if u():\n        for i in ['c', 'd']:\n            y = i\n            if u(i):\n                break\n"
+        "        else:\n            return LaunchDescription()\n"
+    )
+    file = read(f"{GENERATE}{loop}    return LaunchDescription([Node(package='a', executable=y)])\n")
+    assert sorted(nodes(file)) == ["a", "c", "d"]

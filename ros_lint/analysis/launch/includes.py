@@ -223,12 +223,12 @@ _READ_BY_LAUNCH = {"process": _OF_PROCESSES, "node": (*_OF_PROCESSES, *_OF_NODES
 
 def assigned_configurations(file: LaunchFile) -> dict[str, tuple[str, ...]]:
     """Return the launch configurations that a file sets or declares with a default, each with all its values."""
-    result: dict[str, tuple[str, ...]] = {}
+    result: dict[str, list[str]] = {}
     for action in walk_actions(file.actions):
         if action.kind in ("argument", "set") and action.target is not None and action.value is not None:
             for name in action.target.texts:
-                result[name] = (*result.get(name, ()), *action.value.texts)
-    return result
+                result.setdefault(name, []).extend(action.value.texts)
+    return {name: tuple(texts) for name, texts in result.items()}
 
 
 def substitute(value: LaunchValue | None, defaults: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:

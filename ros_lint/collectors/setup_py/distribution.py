@@ -9,7 +9,14 @@ from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
 from ros_lint.base.text import Span
-from ros_lint.collectors.python.interpreter.values import Class, Globbed, Guarded, Unknown, Value, plain
+from ros_lint.collectors.python.interpreter.alternatives import plain
+from ros_lint.collectors.python.interpreter.values import (
+    Class,
+    Globbed,
+    Guarded,
+    Unknown,
+    Value,
+)
 from ros_lint.collectors.setup_py.interpreter.files import Files
 from ros_lint.collectors.setup_py.interpreter.values import REST
 from ros_lint.facts.build import InstalledFile

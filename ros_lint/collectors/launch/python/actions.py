@@ -18,9 +18,15 @@ from ros_lint.collectors.launch.python import events, nodes
 from ros_lint.collectors.launch.python.nodes import nested, started_node
 from ros_lint.collectors.launch.python.substitutions import SUBSTITUTIONS, is_text, texts
 from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, plain
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.protocol import Interpreter
-from ros_lint.collectors.python.interpreter.values import Conditions, LaunchObject, Source, Value, alternatives, plain
+from ros_lint.collectors.python.interpreter.values import (
+    Conditions,
+    LaunchObject,
+    Source,
+    Value,
+)
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchAction, LaunchValue
 

@@ -32,6 +32,7 @@ from ros_lint.collectors.launch.python.runtime_errors import (
 )
 from ros_lint.collectors.launch.python.substitutions import TextEvaluation, texts
 from ros_lint.collectors.launch.references import References
+from ros_lint.collectors.python.interpreter.alternatives import alternatives
 from ros_lint.collectors.python.interpreter.machine import Machine
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -41,7 +42,6 @@ from ros_lint.collectors.python.interpreter.values import (
     Modules,
     ProgramRaised,
     Source,
-    alternatives,
 )
 from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import read, refusal, span_of

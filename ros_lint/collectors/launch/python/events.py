@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterable, Mapping
 
 from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of, span_of
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, plain
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -17,8 +18,6 @@ from ros_lint.collectors.python.interpreter.values import (
     LaunchObject,
     Source,
     Unknown,
-    alternatives,
-    plain,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN, configuration
 from ros_lint.facts.launch import OPENED, TIMER, LaunchAction, LaunchValue

@@ -8,7 +8,12 @@ from typing import Final
 
 from ros_lint.collectors.launch.python.substitutions import conditions_of, texts
 from ros_lint.collectors.launch.python.walker import Walker
-from ros_lint.collectors.python.interpreter.values import LaunchObject, Source, Value, alternatives, plain
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, plain
+from ros_lint.collectors.python.interpreter.values import (
+    LaunchObject,
+    Source,
+    Value,
+)
 from ros_lint.facts.launch import FileChange, LaunchValue
 
 _INNERMOST: Final = 8

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.conditional_text import joined
 from ros_lint.collectors.launch.python.substitutions import conditions_of
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, union
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS
 from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.python.interpreter.methods import items
@@ -28,10 +29,8 @@ from ros_lint.collectors.python.interpreter.values import (
     Method,
     Unknown,
     Value,
-    alternatives,
     argument_of,
     environment,
-    union,
     written,
 )
 from ros_lint.collectors.python.methods import CONSTANTS

@@ -11,6 +11,7 @@ from ros_lint.collectors.launch.python.events import later
 from ros_lint.collectors.launch.python.file_changes import file_changes
 from ros_lint.collectors.launch.python.substitutions import is_text, texts
 from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of, span_of
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, around, plain, union
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -20,10 +21,6 @@ from ros_lint.collectors.python.interpreter.values import (
     LaunchObject,
     Value,
     Written,
-    alternatives,
-    around,
-    plain,
-    union,
 )
 from ros_lint.collectors.python.string_values import callee
 from ros_lint.collectors.symbolic_text import UNKNOWN, named_in

@@ -11,6 +11,7 @@ from typing import Any
 from ros_lint.base.budget import Budget
 from ros_lint.collectors import symbolic_text
 from ros_lint.collectors.conditional_text import distinct, joined
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, plain, under
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
     Conditions,
@@ -20,10 +21,7 @@ from ros_lint.collectors.python.interpreter.values import (
     LaunchObject,
     Union,
     Value,
-    alternatives,
     environment,
-    plain,
-    under,
 )
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN, join_path, quoted
 from ros_lint.facts.launch import LaunchCondition

@@ -11,6 +11,7 @@ from ros_lint.base.text import Span, file_start
 from ros_lint.collectors import conditional_text
 from ros_lint.collectors.launch.python.substitutions import TextEvaluation, conditions_of, texts
 from ros_lint.collectors.python import syntax as python_syntax
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, plain, union
 from ros_lint.collectors.python.interpreter.values import (
     Conditions,
     Context,
@@ -24,9 +25,6 @@ from ros_lint.collectors.python.interpreter.values import (
     Unknown,
     Value,
     Written,
-    alternatives,
-    plain,
-    union,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN, installed
 from ros_lint.facts.launch import LaunchAction, LaunchValue

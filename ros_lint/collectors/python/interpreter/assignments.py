@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.conditional_text import are_consistent
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, around, cause, plain, union
 from ros_lint.collectors.python.interpreter.dictionaries import store
 from ros_lint.collectors.python.interpreter.elements import may_have_more
 from ros_lint.collectors.python.interpreter.methods import items, more, replace
@@ -21,12 +22,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Unknown,
     Value,
     Written,
-    alternatives,
-    around,
-    cause,
-    plain,
     settled,
-    union,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
 
@@ -194,7 +190,8 @@ def _import_from(machine: Interpreter, node: ast.ImportFrom, frame: Frame) -> No
     module = machine.module(name, frame.source, node)
     for alias in node.names:
         if alias.name == "*":
-            frame.names.update(module.names if module is not None else {})
+            for member, value in module.names.items() if module is not None else ():
+                frame.names[member] = value
             continue
         if machine.library.is_substitution(alias.name):
             frame.names[alias.asname or alias.name] = machine.library.member(f"{name}.{alias.name}", node, frame.source)
@@ -231,7 +228,7 @@ def _delete(machine: Interpreter, node: ast.Delete, frame: Frame) -> None:
         if isinstance(target, (ast.Tuple, ast.List)):
             waiting += target.elts
         elif isinstance(target, ast.Name):
-            frame.declared.get(target.id, frame).names.pop(target.id, None)
+            frame.declared.get(target.id, frame).names.discard(target.id)
         elif isinstance(target, ast.Attribute):
             owner = plain(machine.evaluate(target.value, frame))
             if isinstance(owner, Instance):

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.base.budget import BudgetExceeded
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, cause, plain, same
 from ros_lint.collectors.python.interpreter.assignments import bind
 from ros_lint.collectors.python.interpreter.complements import complement, opposite_of
 from ros_lint.collectors.python.interpreter.methods import items
@@ -22,13 +23,10 @@ from ros_lint.collectors.python.interpreter.values import (
     Exit,
     Frame,
     Guarded,
+    Names,
     Pending,
     ProgramRaised,
     Value,
-    alternatives,
-    cause,
-    plain,
-    same,
     settled,
 )
 from ros_lint.collectors.python.string_values import callee
@@ -67,7 +65,7 @@ class _Side(NamedTuple):
     taken: LaunchCondition
     """The condition under which the branch runs."""
     signal: int
-    names: dict[str, Value]
+    names: Names
     conditions: Conditions
     """All conditions that hold at the end of the branch."""
     exits: list[Exit]
@@ -117,13 +115,16 @@ def either(
         else:
             frame.exits += [*side.exits, Exit(side.signal, side.conditions, side.names)]
     machine.conditions = (*before, *rest)
-    if first.signal == second.signal:
-        frame.names = first.names
-        _join(machine, frame, (condition,), second.names, (opposite_of(condition),))
-    elif first.signal == signal:
-        frame.names = {**second.names, **first.names}
-    else:
-        frame.names = {**first.names, **second.names}
+    frame.names = start
+    for name in {**first.names.changed, **second.names.changed}:
+        sides = [side for side in (first, second) if name in side.names]
+        if len(sides) == 2 and first.signal == second.signal:
+            held = (condition,), (opposite_of(condition),)
+            start[name] = _joined(machine, first.names[name], held[0], second.names[name], held[1])
+        elif sides:
+            start[name] = min(sides, key=lambda side: side.signal).names[name]
+        else:
+            start.discard(name)
     return signal
 
 
@@ -144,12 +145,12 @@ def _follow(
     block: Sequence[ast.stmt],
     taken: LaunchCondition,
     before: Conditions,
-    start: dict[str, Value],
+    start: Names,
     frame: Frame,
     *,
     loop: bool = False,
 ) -> _Side:
-    machine.conditions, frame.names, known = (*before, taken), dict(start), len(frame.exits)
+    machine.conditions, frame.names, known = (*before, taken), Names(start), len(frame.exits)
     try:
         signal = machine.execute(block, frame)
     except ProgramRaised:
@@ -165,7 +166,7 @@ def _follow(
     return _Side(block, taken, signal, frame.names, machine.conditions, exits)
 
 
-def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str, Value], conditions: Conditions) -> None:
+def _join(machine: Interpreter, frame: Frame, held: Conditions, names: Names, conditions: Conditions) -> None:
     """Add ``names`` to the names of a function (``frame``). A name with different values gets both values as alternatives.
 
     The values in ``names`` hold under ``conditions``, the values in the frame under ``held``.
@@ -173,8 +174,14 @@ def _join(machine: Interpreter, frame: Frame, held: Conditions, names: dict[str,
     for name, value in names.items():
         if name not in frame.names:
             frame.names[name] = value
-        elif not same(held_value := frame.names[name], value):
-            frame.names[name] = Pending((Guarded(held_value, held), Guarded(value, conditions)), machine.joined)
+        elif frame.names[name] is not value:
+            frame.names[name] = _joined(machine, frame.names[name], held, value, conditions)
+
+
+def _joined(machine: Interpreter, first: Value, held: Conditions, second: Value, conditions: Conditions) -> Value:
+    if same(first, second):
+        return first
+    return Pending((Guarded(first, held), Guarded(second, conditions)), machine.joined)
 
 
 def _join_exit(machine: Interpreter, frame: Frame, way_out: Exit, around: Conditions) -> None:
@@ -243,12 +250,12 @@ class _Loop:
         """Interpret the body for one iteration, which runs only under the conditions ``guards``."""
         machine, frame = self._machine, self._frame
         around = machine.conditions = (*self._before, *self._bars, *guards)
-        before = dict(frame.names) if guards else {}
+        before = Names(frame.names) if guards else Names()
         signal = machine.execute(body, frame)
         exits = frame.exits[self._known :]
         del frame.exits[self._known :]
         if signal in (BREAK, LEAVE):
-            exits.append(Exit(signal, machine.conditions, dict(frame.names)))
+            exits.append(Exit(signal, machine.conditions, Names(frame.names)))
         for way_out in exits:
             if way_out.signal == CONTINUE:
                 _join_exit(machine, frame, way_out, around)
@@ -277,9 +284,9 @@ class _Loop:
             frame.exits += leaves
             return signal
         if signal:
-            frame.names = breaks.pop().names
+            frame.names.become(breaks.pop().names)
             if not self.ended:
-                leaves.append(Exit(signal, machine.conditions, frame.names))
+                leaves.append(Exit(signal, machine.conditions, Names(frame.names)))
         for way_out in breaks:
             _join_exit(machine, frame, way_out, self._before)
         machine.conditions = (*self._before, *_bars(machine, leaves, len(self._before)))

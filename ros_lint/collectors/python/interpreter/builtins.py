@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors import symbolic_text as launch_text
 from ros_lint.collectors.python.interpreter import container_functions
+from ros_lint.collectors.python.interpreter.alternatives import plain
 from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, nothing, unknown, unknown_text
 from ros_lint.collectors.python.interpreter.methods import call_method, of_instance
 from ros_lint.collectors.python.interpreter.operations import each, text_of, truth
@@ -28,7 +29,6 @@ from ros_lint.collectors.python.interpreter.values import (
     Union,
     Unknown,
     Value,
-    plain,
 )
 from ros_lint.collectors.symbolic_text import OWN_FOLDER, UNKNOWN
 

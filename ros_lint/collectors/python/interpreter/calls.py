@@ -6,9 +6,17 @@ import ast
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, union
 from ros_lint.collectors.python.interpreter.methods import items
 from ros_lint.collectors.python.interpreter.operations import text_of, texts_made
-from ros_lint.collectors.python.interpreter.values import Globbed, Union, Unknown, Value, alternatives, globbed, union, written
+from ros_lint.collectors.python.interpreter.values import (
+    Globbed,
+    Union,
+    Unknown,
+    Value,
+    globbed,
+    written,
+)
 from ros_lint.collectors.symbolic_text import UNKNOWN
 
 if TYPE_CHECKING:

@@ -10,11 +10,19 @@ from itertools import product
 from math import prod
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors.python.interpreter.alternatives import around, plain
 from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, unknown
 from ros_lint.collectors.python.interpreter.methods import items, more
 from ros_lint.collectors.python.interpreter.operations import truth
 from ros_lint.collectors.python.interpreter.ordering import arranged, positions, sort_keys, unique
-from ros_lint.collectors.python.interpreter.values import Conditions, Guarded, ProgramRaised, SetOf, Unknown, Value, around, plain
+from ros_lint.collectors.python.interpreter.values import (
+    Conditions,
+    Guarded,
+    ProgramRaised,
+    SetOf,
+    Unknown,
+    Value,
+)
 
 if TYPE_CHECKING:
     from ros_lint.collectors.python.interpreter.protocol import Interpreter

@@ -9,8 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.python.interpreter.alternatives import around, plain, union
 from ros_lint.collectors.python.interpreter.complements import complement, opposite_of
-from ros_lint.collectors.python.interpreter.values import PERHAPS, Conditions, Guarded, Value, around, plain, union
+from ros_lint.collectors.python.interpreter.values import (
+    PERHAPS,
+    Conditions,
+    Guarded,
+    Value,
+)
 from ros_lint.collectors.symbolic_text import UNKNOWN
 from ros_lint.facts.launch import LaunchCondition
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from ros_lint.collectors.python.interpreter.alternatives import plain, union
 from ros_lint.collectors.python.interpreter.operations import hashable
 from ros_lint.collectors.python.interpreter.recorder import are_unknown
 from ros_lint.collectors.python.interpreter.values import (
@@ -14,8 +15,6 @@ from ros_lint.collectors.python.interpreter.values import (
     ProgramRaised,
     Unknown,
     Value,
-    plain,
-    union,
 )
 from ros_lint.collectors.symbolic_text import MOST, UNKNOWN, expression, is_plain, named_in, quoted
 from ros_lint.facts.launch import LaunchCondition

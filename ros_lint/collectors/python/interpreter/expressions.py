@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.conditional_text import joined
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, around, cause, plain, union
 from ros_lint.collectors.python.interpreter.assignments import bind
 from ros_lint.collectors.python.interpreter.complements import opposite_of
 from ros_lint.collectors.python.interpreter.dictionaries import value_or_default
@@ -37,12 +38,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Union,
     Unknown,
     Value,
-    alternatives,
-    around,
-    cause,
-    plain,
     settled,
-    union,
     written,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN, expression, quoted

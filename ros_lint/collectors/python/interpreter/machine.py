@@ -16,6 +16,7 @@ from contextlib import contextmanager, suppress
 from ros_lint.base.budget import Budget, BudgetExceeded
 from ros_lint.base.paths import parent
 from ros_lint.collectors.conditional_text import joined
+from ros_lint.collectors.python.interpreter.alternatives import guarded_text, plain, union
 from ros_lint.collectors.python.interpreter.branches import LEAVE
 from ros_lint.collectors.python.interpreter.builtins import BUILTINS
 from ros_lint.collectors.python.interpreter.expressions import EVALUATE
@@ -44,10 +45,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Super,
     Unknown,
     Value,
-    guarded_text,
-    plain,
     settled,
-    union,
 )
 from ros_lint.collectors.python.syntax import placed
 from ros_lint.collectors.python.versions import STANDARD_LIBRARY
@@ -106,7 +104,7 @@ class Machine(Interpreter):
         source.names.setdefault("__name__", "launch_file")
         with suppress(ProgramRaised):
             execute(self, tree.body, frame)
-        frame.settle()
+        frame.names.settle()
         source.names = frame.names
         return frame
 

@@ -8,6 +8,7 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.conditional_text import joined
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, around, cause, plain, same, union
 from ros_lint.collectors.python.interpreter.dictionaries import entries, guarded, store, value_or_default
 from ros_lint.collectors.python.interpreter.elements import append, chosen, may_have_more, waits, without
 from ros_lint.collectors.python.interpreter.operations import hashable, of_sets, text_of, texts_made, with_format
@@ -32,13 +33,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Union,
     Unknown,
     Value,
-    alternatives,
-    around,
-    cause,
-    plain,
-    same,
     settled,
-    union,
     written,
 )
 from ros_lint.collectors.python.methods import LENGTH_PRESERVING, NUMBERS, SPLITS, STRIPS, TEXT_METHODS, TRUTHS

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros_lint.collectors.conditional_text import distinct, joined
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, around, guarded_text, plain, under, union
 from ros_lint.collectors.python.interpreter.complements import opposite_of
 from ros_lint.collectors.python.interpreter.ordering import MOST_COMPARED, is_known, is_small, unique
 from ros_lint.collectors.python.interpreter.values import (
@@ -21,12 +22,6 @@ from ros_lint.collectors.python.interpreter.values import (
     Union,
     Unknown,
     Value,
-    alternatives,
-    around,
-    guarded_text,
-    plain,
-    under,
-    union,
     written,
 )
 from ros_lint.collectors.python.operators import ARITHMETIC, BITWISE, COMPARISONS, is_wide

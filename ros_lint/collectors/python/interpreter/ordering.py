@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ros_lint.collectors.python.interpreter.values import Guarded, ProgramRaised, Value, plain
+from ros_lint.collectors.python.interpreter.alternatives import plain
+from ros_lint.collectors.python.interpreter.values import (
+    Guarded,
+    ProgramRaised,
+    Value,
+)
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_plain
 
 if TYPE_CHECKING:

@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from ros_lint.collectors.conditional_text import joined
+from ros_lint.collectors.python.interpreter.alternatives import guarded_text, union
 from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule
 from ros_lint.collectors.python.interpreter.path_functions import normalized, split, split_suffix
-from ros_lint.collectors.python.interpreter.values import FilePath, Value, guarded_text, union
+from ros_lint.collectors.python.interpreter.values import (
+    FilePath,
+    Value,
+)
 from ros_lint.collectors.symbolic_text import join_path
 
 

@@ -7,8 +7,16 @@ import re
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
+from ros_lint.collectors.python.interpreter.alternatives import plain
 from ros_lint.collectors.python.interpreter.elements import waits
-from ros_lint.collectors.python.interpreter.values import FilePath, Method, ProgramRaised, Unknown, Value, plain, written
+from ros_lint.collectors.python.interpreter.values import (
+    FilePath,
+    Method,
+    ProgramRaised,
+    Unknown,
+    Value,
+    written,
+)
 from ros_lint.collectors.symbolic_text import BRACKETS, OWN_FOLDER, UNKNOWN, expression, is_plain, may_contain_place, quoted
 
 if TYPE_CHECKING:

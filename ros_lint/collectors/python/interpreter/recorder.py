@@ -8,6 +8,7 @@ from typing import Literal, NamedTuple
 
 from ros_lint.base.budget import Budget
 from ros_lint.collectors.conditional_text import are_consistent
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, around, union
 from ros_lint.collectors.python.interpreter.complements import complement
 from ros_lint.collectors.python.interpreter.values import (
     PERHAPS,
@@ -19,10 +20,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Union,
     Unknown,
     Value,
-    alternatives,
-    around,
     environment,
-    union,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN, named_in
 from ros_lint.facts.launch import LaunchCondition

@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ros_lint.collectors.python.interpreter.alternatives import alternatives
 from ros_lint.collectors.python.interpreter.values import (
     FilePath,
     Frame,
@@ -23,7 +24,6 @@ from ros_lint.collectors.python.interpreter.values import (
     Union,
     Unknown,
     Value,
-    alternatives,
     settled,
 )
 from ros_lint.collectors.symbolic_text import UNKNOWN

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ros_lint.base.budget import BudgetExceeded
 from ros_lint.collectors.python.exceptions import catching, kind_raised
 from ros_lint.collectors.python.interpreter import assignments
+from ros_lint.collectors.python.interpreter.alternatives import plain
 from ros_lint.collectors.python.interpreter.assignments import bind
 from ros_lint.collectors.python.interpreter.branches import (
     BREAK,
@@ -33,7 +34,6 @@ from ros_lint.collectors.python.interpreter.values import (
     ProgramRaised,
     Unknown,
     Value,
-    plain,
 )
 from ros_lint.collectors.python.lookups import catches_missing_file, catches_missing_package
 from ros_lint.collectors.python.string_values import LOOK_UPS, callee
@@ -274,7 +274,7 @@ def _class(machine: Interpreter, node: ast.ClassDef, frame: Frame) -> int:
     bases = [plain(machine.evaluate(base, frame)) for base in node.bases]
     inner = Frame(frame.source, frame, {})
     execute(machine, node.body, inner)
-    inner.settle()
+    inner.names.settle()
     fields = [
         statement.target.id
         for statement in node.body

@@ -10,6 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from ros_lint.base.budget import Budget
+from ros_lint.collectors.python.interpreter.alternatives import plain
 from ros_lint.collectors.python.interpreter.builtins import FUNCTIONS as PYTHON
 from ros_lint.collectors.python.interpreter.calls import LibraryCall, Rule, nothing
 from ros_lint.collectors.python.interpreter.operations import each
@@ -26,7 +27,6 @@ from ros_lint.collectors.python.interpreter.values import (
     Unknown,
     Value,
     globbed,
-    plain,
 )
 from ros_lint.collectors.python.methods import CONSTANTS as PYTHON_CONSTANTS
 from ros_lint.collectors.setup_py.interpreter.files import ROOT, Files

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 from ros_lint.base.budget import BudgetExceeded
 from ros_lint.base.text import Text
+from ros_lint.collectors.python.interpreter.alternatives import alternatives
 from ros_lint.collectors.python.interpreter.machine import Machine
 from ros_lint.collectors.python.interpreter.operations import TOO_LARGE
 from ros_lint.collectors.python.interpreter.statements import execute
@@ -17,12 +18,12 @@ from ros_lint.collectors.python.interpreter.values import (
     Function,
     LibraryName,
     Method,
+    Names,
     ProgramRaised,
     Source,
     Union,
     Unknown,
     Value,
-    alternatives,
     written,
 )
 from ros_lint.collectors.setup_py.interpreter.expression_text import at
@@ -121,7 +122,7 @@ class Program(Machine):
             return None
         source = Source(importer.text)
         names = ("setup", "find_packages", "find_namespace_packages")
-        source.names = {member: self.library.member(f"{name}.{member}", at, importer) for member in names}
+        source.names = Names({member: self.library.member(f"{name}.{member}", at, importer) for member in names})
         return source
 
     def call(self, function: Value, arguments: list[Value], keywords: dict[str, Value], node: ast.Call, frame: Frame) -> Value:

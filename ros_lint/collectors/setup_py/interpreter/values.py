@@ -12,6 +12,7 @@ from typing import Final
 
 from ros_lint.base.text import Span
 from ros_lint.collectors.conditional_text import are_consistent
+from ros_lint.collectors.python.interpreter.alternatives import alternatives, around, plain
 from ros_lint.collectors.python.interpreter.values import (
     Conditions,
     Globbed,
@@ -19,10 +20,7 @@ from ros_lint.collectors.python.interpreter.values import (
     Union,
     Unknown,
     Value,
-    alternatives,
-    around,
     globbed,
-    plain,
 )
 from ros_lint.collectors.setup_py.interpreter.expression_text import at
 from ros_lint.collectors.symbolic_text import UNKNOWN
