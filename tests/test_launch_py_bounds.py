@@ -1,5 +1,6 @@
 """What Python launch files with too many steps, branches and nested calls hide, and where. Their other actions are known."""
 
+import pickle
 from collections.abc import Sequence
 
 import pytest
@@ -132,3 +133,11 @@ def test_names_changed_in_a_branch_of_a_loop_are_known_after_it() -> None:
     )
     file = read(f"{GENERATE}{loop}    return LaunchDescription([Node(package='a', executable=y)])\n")
     assert sorted(nodes(file)) == ["a", "c", "d"]
+
+
+def test_facts_are_sent_between_processes_without_the_program() -> None:
+    declare = "    x = [DeclareLaunchArgument('a', description='what a is', default_value='b')]\n    if u():\n        y = 1\n"
+    head = "from launch.actions import DeclareLaunchArgument\n"
+    file = read(f"{head}{GENERATE}{declare}    return LaunchDescription(x)\n")
+    assert pickle.loads(pickle.dumps(file)) == file
+    assert b"interpreter" not in pickle.dumps(file)

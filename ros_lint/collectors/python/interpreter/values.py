@@ -96,6 +96,10 @@ class Written(str):
     node: ast.expr
     source: Source
 
+    def __reduce__(self) -> tuple[type[str], tuple[str]]:
+        """Pickle the text alone: facts may contain such a text, and the interpreted module does not belong to them."""
+        return str, (str(self),)
+
 
 def written(text: str, node: ast.expr, source: Source) -> Written:
     """Return ``text`` with the expression that produced it, and the module of that expression."""
