@@ -141,6 +141,23 @@ def test_a_variable_that_is_never_set_explains_missing_exports() -> None:
     assert [(explained.rule, explained.subject) for explained in issue.explained] == [("unexported-dependency", "nav_msgs")]
 
 
+def test_a_misspelt_configuration_explains_that_the_argument_is_unused() -> None:
+    files = {
+        "arm/package.xml": manifest(),
+        "arm/CMakeLists.txt": "project(arm)\nfind_package(ament_cmake REQUIRED)\n"
+        "install(DIRECTORY launch DESTINATION share/arm)\nament_package()\n",
+        "arm/launch/arm.launch.xml": '<launch><arg name="thruster_gain" default="1"/><arg name="colour" default="red"/>'
+        '<node pkg="arm" exec="arm" args="$(var thrustr_gain)"/></launch>',
+    }
+    rules = tuple(rule for rule in registry.load() if rule.name in ("launch-undeclared-configuration", "launch-unused-argument"))
+    issues, _ = run_rules(loaded(files), rules)
+    unused, misspelt = sorted(without_explained(issues), key=lambda issue: issue.finding.subject)
+    assert (unused.finding.subject, misspelt.finding.subject) == ("colour", "thrustr_gain")
+    assert [(explained.rule, explained.subject) for explained in misspelt.explained] == [
+        ("launch-unused-argument", "thruster_gain")
+    ]
+
+
 @pytest.mark.parametrize(("declared", "cause"), [("std_msg", "unknown-dependency"), ("actionlib", "end-of-life-dependency")])
 def test_a_wrong_name_explains_that_it_is_unused(declared: str, cause: str) -> None:
     files = {

@@ -39,7 +39,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ros_lint.api import Confidence, Finding, Package, Related, Rule, Severity, Workspace, launch, names
+from ros_lint.api import Confidence, Consequence, Finding, Package, Related, Rule, Severity, Workspace, launch, names
 
 _MOST_MISSING = 2
 """Maximum number of undeclared configurations that are reported in a launch file.
@@ -71,6 +71,7 @@ def _undeclared(arguments: launch.ArgumentUse, *, included: bool, sure: bool) ->
             span,
             name,
             confidence=Confidence.HIGH if near and not included else Confidence.MEDIUM,
+            explains=tuple([Consequence("launch-unused-argument", meant) for meant in near if meant in arguments.unused]),
         )
 
 
