@@ -46,6 +46,9 @@ class Cell:
         """The answers that have read the cell."""
 
 
+_FEW = 1000
+"""Number of answers below which none is forgotten."""
+
 _CURRENT, _SUSPECT, _OUTDATED = 0, 1, 2
 """States of an answer: valid; valid unless an answer that it has read changes; invalid."""
 
@@ -72,8 +75,27 @@ class Recorder:
 
     def __init__(self) -> None:
         self._answers: dict[Hashable, _Answer] = {}
+        self._roots: dict[Cell, None] = {}
+        """The answers of this run that were asked outside of a computation."""
+        self._needed = 0
+        """The number of answers after the last removal of those that are not needed."""
         self.reads: dict[Cell, None] | None = None
         """The reads of the current computation so far, in order; None outside of a computation."""
+
+    def begin(self) -> None:
+        """Begin a run. Once the answers have doubled, forget those that the last run has not read, directly or indirectly."""
+        if len(self._answers) > 2 * self._needed + _FEW:
+            needed = set(self._roots)
+            waiting = list(needed)
+            while waiting:
+                cell = waiting.pop()
+                new = cell.reads.keys() - needed if isinstance(cell, _Answer) else ()
+                needed.update(new)
+                waiting += new
+            for answer in [answer for answer in self._answers.values() if answer not in needed]:
+                self._forget(answer)
+            self._needed = len(self._answers)
+        self._roots = {}
 
     def scope(self) -> Questions:
         """Return a collection of answers of its own: the same question in another scope is another question."""
@@ -94,8 +116,7 @@ class Recorder:
         elif found.state:
             found.compute = answer
             self._renew(found)
-        if self.reads is not None:
-            self.reads[found] = None
+        (self._roots if self.reads is None else self.reads)[found] = None
         return cast("T", found.value)
 
     def answered(self, scope: Questions, question: Hashable) -> tuple[Cell, object] | None:

@@ -146,6 +146,7 @@ class Loader:
         recorder = self._recorder if sources else None
         touched: set[str] = set()
         if recorder and self._watched:
+            recorder.begin()
             touched = self._touched | self._watched.lay(self.tree, changed)
             self._touched = set()
             tree = self._watched
