@@ -90,6 +90,7 @@ def test_options_select_among_the_requested_packages(tmp_path: Path, capsys: pyt
     [
         (["--packages-select", "tallker"], "--packages-select: there is no package 'tallker'; did you mean 'talker'?"),
         (["--packages-up-to", "x"], "--packages-up-to: there is no package 'x'"),
+        (["--packages-above", "x"], "--packages-above: there is no package 'x'"),
         (["--packages-select-regex", "["], "--packages-select-regex: '[' is not a regular expression: "),
         (["--packages-select-regex", "x"], "no package below . is selected by the options --packages-..."),
     ],

@@ -112,6 +112,7 @@ GLOB = LIST._replace(glob="glob")
         (GLOB, ["launch/a.launch.py"], ["launch/b.py"], " ('share/robot/launch', glob('launch/*.launch.py')),"),
         (GLOB, ["launch/a.launch.py", "launch/b.launch.py"], [], " ('share/robot/launch', glob('launch/*.launch.py')),"),
         (GLOB, ["launch/a.py", "launch/b.launch.py"], ["launch/sub/c.py"], " ('share/robot/launch', glob('launch/*.py')),"),
+        (GLOB, ["launch/a_x.py", "launch/b_x.py"], [], " ('share/robot/launch', glob('launch/*.py')),"),
         # further files have the ending
         (GLOB, ["launch/a.launch.py"], ["launch/b.launch.py"], " ('share/robot/launch', ['launch/a.launch.py']),"),
         # all files of a folder

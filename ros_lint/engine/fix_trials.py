@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ros_lint.workspace.loader import Loader
 
 _MOST_TRIALS = 2
-"""Number of trials to keep in memory, because the result of a successful trial is needed again immediately."""
+"""Number of trials to keep besides the first one, because the result of a successful trial is needed again immediately."""
 
 DistroIdentity = tuple[str, str]
 """A distribution, and the identity (rule, package and subject) of an issue in it."""

@@ -71,7 +71,7 @@ def _ending(paths: Sequence[str]) -> str:
     ["a.launch.py", "b.launch.py"] -> ``.launch.py``
     """
     names = [posixpath.basename(path) for path in paths]
-    shared = posixpath.commonprefix([name[::-1] for name in names])[::-1] if len(names) > 1 else names[0][1:]
+    shared = posixpath.commonprefix([name[::-1] for name in names])[::-1]
     return shared[shared.find(".") :] if "." in shared else ""
 
 
@@ -95,7 +95,7 @@ def joined(to: EditableList, package: str, before: str, after: str = "") -> str:
 def quoted(to: EditableList, text: str) -> str:
     """Return a text as a Python string literal, with the kind of quotes that the list ``to`` uses."""
     plain = repr(text)
-    return plain if to.quote in plain[1:-1] or "\\" in plain else f"{to.quote}{text}{to.quote}"
+    return plain if to.quote in text or "\\" in plain else f"{to.quote}{text}{to.quote}"
 
 
 _FOLDERS = (("develop", "script_dir"), ("install", "install_scripts"))
