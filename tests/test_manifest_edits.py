@@ -191,6 +191,12 @@ def test_sort_orders_the_children_by_the_schema(text: str) -> None:
             "g",
             "  <test_depend>t</test_depend>\n  <depend>a</depend>\n  <member_of_group>g</member_of_group>\n  <export/>",
         ),
+        (
+            "  <test_depend>t</test_depend>\n  <depend>a</depend>\n  <export/>",
+            "group_depend",
+            "g",
+            "  <test_depend>t</test_depend>\n  <depend>a</depend>\n  <group_depend>g</group_depend>\n  <export/>",
+        ),
         ("\t<depend>a</depend>", "depend", "b", "\t<depend>a</depend>\n\t<depend>b</depend>"),
         ("  <depend>a</depend><depend>c</depend>", "depend", "b", "  <depend>a</depend><depend>b</depend><depend>c</depend>"),
         (
@@ -319,6 +325,12 @@ def test_set_build_type_follows_the_indentation_of_the_file() -> None:
             '  <depend>a</depend>\n  <depend version_gte="1" condition="$A == \'1\' and $B &lt; c">x</depend>\n'
             "  <test_depend>b</test_depend>",
         ),
+        (
+            "  <depend>a</depend>\n  <test_depend>b</test_depend>\n"
+            '  <test_depend condition="$A == &quot;1&quot;">x</test_depend>',
+            "x",
+            '  <depend>a</depend>\n  <depend condition="$A == &quot;1&quot;">x</depend>\n  <test_depend>b</test_depend>',
+        ),
         (  # another spelling of the element
             "  <depend>a</depend>\n  <test_depend>b</test_depend>\n  <test_depend> x</test_depend>",
             "x",
@@ -392,6 +404,17 @@ def test_several_insertions_at_one_place_are_in_order(body: str, wanted: list[st
     assert [depend.name for depend in read(apply(text, edits)).depends] == list(expected)
 
 
+@pytest.mark.parametrize("tag", TAGS)
+def test_several_insertions_give_the_same_text_as_one_after_the_other(tag: str) -> None:
+    for seed in range(20):
+        text = manifest_of_seed(seed)
+        names = [name for name in ("aaa", "mmm", "nnn", "zzz") if Random(f"{seed}{name}").randrange(2)]
+        together = apply(text, [manifest_edits.add(read(text), tag, name) for name in names])
+        for name in names:
+            text = apply(text, [manifest_edits.add(read(text), tag, name)])
+        assert together == text
+
+
 def test_raise_format_changes_only_the_format() -> None:
     for original, edited in [
         ("<package>\n</package>", '<package format="3">\n</package>'),
@@ -404,6 +427,10 @@ def test_add_to_an_empty_package() -> None:
     for text in ("<package></package>", "<package>\n</package>\n"):
         edited = apply(text, [manifest_edits.add(read(text), "depend", "a")])
         assert edited.strip() == "<package>\n  <depend>a</depend>\n</package>"
+        assert manifest_edits.sort(read(text)) == ()
+    text = "<package>\n\t\t<export/>\n</package>"
+    edited = apply(text, [manifest_edits.add(read(text), "depend", "a")])
+    assert edited == "<package>\n\t\t<depend>a</depend>\n\t\t<export/>\n</package>"
 
 
 @pytest.mark.parametrize(
@@ -445,6 +472,13 @@ def test_remove_takes_out_the_line_and_separating_blank_lines(body: str, expecte
         ("  <export/>\n  <depend>a</depend> <!-- why -->", None),
         ("  <export/>\n  <!-- for the tests -->\n  <depend>a</depend>", None),
         ("  <export/>\n  <depend>a<!-- inside --></depend>", None),
+        ("  <author>a</author>\n  <url\n    type='website'>u</url>", None),
+        (
+            "  <author>a</author>\n  <author>b</author>\n  <author>c</author>\n  <author>d</author>\n\n"
+            "  <url>1</url>\n  <url>2</url>\n  <url>3</url>\n\n  <depend>e</depend>",
+            "  <url>1</url>\n  <url>2</url>\n  <url>3</url>\n  <author>a</author>\n  <author>b</author>\n"
+            "  <author>c</author>\n  <author>d</author>\n\n  <depend>e</depend>",
+        ),
     ],
 )
 def test_sort_moves_as_few_elements_as_possible(body: str, expected: str | None) -> None:

@@ -159,8 +159,7 @@ def set_build_type(manifest: Manifest, build_type: str) -> Edit:
         return Edit(export.span, export_element)
     if content.line == export.span.line:
         return Edit(content.start(), element)
-    between = ("\t" if indent.startswith("\t") else " ") * (content.column - 1)
-    return Edit(content.start(), f"{element}{newline}{between}")
+    return Edit(content.start(), f"{element}{newline}{' ' * (content.column - 1)}")
 
 
 def raise_format(manifest: Manifest, format_number: int) -> Edit:
@@ -229,9 +228,7 @@ class _Layout:
         self.items = sorted((*spans, *manifest.other_contents))
         self.positions = {item: number for number, item in reversed(list(enumerate(self.items)))}
         self.other_contents = frozenset(manifest.other_contents)
-        self.covered = {self.begin.line, manifest.end.line}
-        for item in self.items:
-            self.covered.update(range(item.line, item.end_line + 1))
+        self.covered = {line for item in self.items for line in range(item.line, item.end_line + 1)}
 
     def neighbours(self, span: Span) -> _Neighbours:
         """Return the items (elements or comments) next to an item: before it on its first line, after it on its last line."""
