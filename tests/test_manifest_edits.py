@@ -433,6 +433,12 @@ def test_add_to_an_empty_package() -> None:
     assert edited == "<package>\n\t\t<depend>a</depend>\n\t\t<export/>\n</package>"
 
 
+def test_an_element_is_indented_as_its_neighbour() -> None:
+    text = "<package>\n\t<name>p</name>\n\t\t<depend>a</depend>\n</package>"
+    edited = apply(text, [manifest_edits.add(read(text), "depend", "b")])
+    assert edited == text.replace("</depend>", "</depend>\n\t\t<depend>b</depend>")
+
+
 @pytest.mark.parametrize(
     ("body", "expected"),
     [
@@ -475,9 +481,9 @@ def test_remove_takes_out_the_line_and_separating_blank_lines(body: str, expecte
         ("  <author>a</author>\n  <url\n    type='website'>u</url>", None),
         (
             "  <author>a</author>\n  <author>b</author>\n  <author>c</author>\n  <author>d</author>\n\n"
-            "  <url>1</url>\n  <url>2</url>\n  <url>3</url>\n\n  <depend>e</depend>",
+            "  <url>1</url>\n  <url>2</url>\n  <url>3</url>",
             "  <url>1</url>\n  <url>2</url>\n  <url>3</url>\n  <author>a</author>\n  <author>b</author>\n"
-            "  <author>c</author>\n  <author>d</author>\n\n  <depend>e</depend>",
+            "  <author>c</author>\n  <author>d</author>",
         ),
     ],
 )
