@@ -378,6 +378,13 @@ def test_a_configuration_without_value_is_reported() -> None:
     assert ask(files, "p", "a.launch.xml", "x:=y")[1:] == ("", 0)
 
 
+def test_a_computed_include_sets_nothing_before_it() -> None:
+    include, node = '<include file="$(var b)"/>', '<node pkg="q" exec="$(var x)"/>'
+    for body, expected in ((node + include, {"b", "x"}), (include + node, {"b"})):
+        _, err, _ = ask(package("p", {"launch/a.launch.xml": xml(body)}), "p", "a.launch.xml")
+        assert set(re.findall(r"configuration '(\w+)' is not set", err)) == expected
+
+
 def test_a_substitution_in_an_f_string_does_not_fail_the_launch() -> None:
     main = (
         "from launch import LaunchDescription\nfrom launch.substitutions import LaunchConfiguration\n"
@@ -630,6 +637,7 @@ from launch import LaunchDescription
 from launch.actions import OpaqueFunction
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterFile
+from nav2_common.launch import ReplaceString
 
 
 def read(name):
@@ -647,18 +655,19 @@ def tolerant(context):
 def generate_launch_description():
     text = read("launch/FILE")
     parameters = [ParameterFile(os.path.join(get_package_share_directory("p"), "launch", "SUBST"), allow_substs=True)]
+    view = ReplaceString(os.path.join(get_package_share_directory("p"), "launch", "VIEW"), {"a": "b"})
     return LaunchDescription([
         OpaqueFunction(function=lambda context: [read("launch/LATER")] and []),
         OpaqueFunction(function=tolerant),
-        Node(package="p", executable="launch", parameters=parameters),
+        Node(package="p", executable="launch", parameters=parameters, arguments=["-d", view]),
     ])
 """
 
 
-@pytest.mark.parametrize("missing", ["", "FILE", "LATER", "SUBST"])
+@pytest.mark.parametrize("missing", ["", "FILE", "LATER", "SUBST", "VIEW"])
 def test_files_that_the_launch_file_opens_have_to_exist(missing: str) -> None:
     text = READS_FILES.replace(missing, "missing") if missing else READS_FILES
-    files = package("p", {"launch/a.launch.py": text, **{f"launch/{name}": "" for name in ("FILE", "LATER", "SUBST")}})
+    files = package("p", {"launch/a.launch.py": text, **{f"launch/{name}": "" for name in ("FILE", "LATER", "SUBST", "VIEW")}})
     _, err, code = ask(files, "p", "a.launch.py")
     expected = "launch/missing: 'p' does not install 'launch/missing'"
     assert (expected in err, code) == ((True, 1) if missing else (False, 0))

@@ -44,7 +44,7 @@ class LaunchValue(NamedTuple):
     guards: tuple[tuple[LaunchCondition, ...], ...] = ()
     """For each of ``texts`` the conditions under which it is the value; () if no text has conditions."""
     changes: tuple[FileChange, ...] = ()
-    """Changes of a parameter file, in order, before the node reads it."""
+    """Changes of a parameter file, or of a file in an argument, in order, before the node reads it."""
 
 
 class FileChange(NamedTuple):

@@ -16,7 +16,7 @@ from ros_lint.collectors.launch.expansion import Argument, Circle, Expansion, Mi
 from ros_lint.collectors.launch.final_parameters import GivenParameter, NodeNames, Texts, final_parameters, of_command_line
 from ros_lint.collectors.launch.scope import COMPUTED, Filling, LaunchScope
 from ros_lint.collectors.symbolic_text import UNKNOWN, is_node_renaming, is_settled
-from ros_lint.facts.launch import OPENED
+from ros_lint.facts.launch import OPENED, walk_actions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -110,7 +110,7 @@ class _Run:
 
     def file(self, file: LaunchFile, passed: dict[str, Texts]) -> None:
         folder = file.path.rpartition("/")[0]
-        self._may_be_set = bool(file.opaque)
+        self._may_be_set = _may_set_more(file)
         self._open.append((file.path, dict(passed)))
         now = self._actions(file.actions, LaunchScope(passed, (folder or ".",)))
         direct, finished = self.started, []
@@ -338,7 +338,7 @@ class _Run:
                 self._set(scope, name, self._texts(value, scope), scope.certain)
         path = started.target[0] if len(started.target) == 1 else UNKNOWN
         file = self._files(path) if is_settled(path) else None
-        self._may_be_set |= file is None or bool(file.opaque)
+        self._may_be_set |= file is None or _may_set_more(file)
         if file is None:
             return scope
         self.started[-1] = started._replace(file=file.path)
@@ -403,14 +403,15 @@ class _Run:
             via=self._via,
         )
         self._note_unset(action, scope)
-        self._note_changed_files(action, given, scope)
+        words_of_files = [self._filling.given("", value, scope) for _, value in action.arguments if value.changes]
+        self._note_changed_files(action, (*given, *[word for word in words_of_files if word is not None]), scope)
         if is_node and self._contents is not None:
             started = started._replace(final=self._final(started, given, scope, self._contents))
         self.started.append(started)
         return started
 
     def _note_changed_files(self, action: LaunchAction, given: Iterable[GivenParameter], scope: LaunchScope) -> None:
-        """Record the parameter files that launch reads because it changes them, and the configurations that they need."""
+        """Record the files that launch reads because it changes them, and the configurations that parameter files need."""
         for one in given:
             if one.name or not one.certain or not any(change.certain for change in one.changes):
                 continue
@@ -472,3 +473,11 @@ def _joined_namespace(row: Texts) -> str:
     if inner.startswith("/") or not outer:
         return inner
     return f"{outer.rstrip('/')}/{inner}" if inner else outer
+
+
+def _may_set_more(file: LaunchFile) -> bool:
+    """Return whether a launch file may set configurations at places that are not analysed, apart from files that it includes."""
+    if not file.opaque:
+        return False
+    included = {action.target.span for action in walk_actions(file.actions) if action.kind == "include" and action.target}
+    return any(opaque.span not in included for opaque in file.opaque)

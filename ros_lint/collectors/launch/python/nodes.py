@@ -205,9 +205,10 @@ def _argument_texts(walker: Walker, launch_object: LaunchObject, *names: str) ->
 def _word(walker: Walker, value: Value, node: ast.expr, launch_object: LaunchObject) -> LaunchValue:
     """Return the possible texts of a word of a command line, with the conditions under which the word is present."""
     words = list(alternatives(value))
+    changes = file_changes(walker, value, node, launch_object.source)
     if len(words) != 1:
-        return walker.text(value, node, launch_object.source)
-    return walker.text(words[0].value, node, launch_object.source)._replace(conditions=words[0].conditions)
+        return walker.text(value, node, launch_object.source)._replace(changes=changes)
+    return walker.text(words[0].value, node, launch_object.source)._replace(conditions=words[0].conditions, changes=changes)
 
 
 def _parameters(walker: Walker, launch_object: LaunchObject) -> tuple[tuple[str, LaunchValue], ...]:
