@@ -172,7 +172,7 @@ class ParameterFile(NamedTuple):
 
 
 class DeclaredParameter(NamedTuple):
-    """A call in C++ or Python code that declares a parameter of a node."""
+    """A declaration of a parameter of a node: a call in C++ or Python code, or a key in a file of generate_parameter_library."""
 
     name: str
     """Name of the parameter."""
@@ -183,7 +183,7 @@ class DeclaredParameter(NamedTuple):
 
 
 class NodeCode(NamedTuple):
-    """The nodes and parameters in a C++ or Python file."""
+    """The nodes and parameters in a C++ or Python file, or in a YAML file of generate_parameter_library."""
 
     path: str
     """Path of the file, relative to the base folder of the run."""

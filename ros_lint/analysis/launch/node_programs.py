@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from ros_lint.analysis.build.commands import evaluated_name
 from ros_lint.analysis.build.targets import stem
+from ros_lint.analysis.launch.described_parameters import described_parameters
 from ros_lint.analysis.memo import cached_by_package
 from ros_lint.collectors.suffixes import HEADERS
 from ros_lint.facts.launch import LaunchAction
@@ -94,15 +95,17 @@ def _names_in_libraries(package: Package, _: Workspace) -> Mapping[str, str]:
 
 
 @cached_by_package
-def _programs(package: Package, _: Workspace) -> Mapping[str, NodeProgram]:
+def _programs(package: Package, workspace: Workspace) -> Mapping[str, NodeProgram]:
     """Return the programs and components of a package by name."""
     if not package.node_code:
         return {}
     by_path = {package.relative(code.path): code for code in package.node_code}
     result: dict[str, NodeProgram] = {}
+    described = described_parameters(package, workspace)
     for name, sources in _sources(package):
         stems = {stem(source) for source in sources}
-        files = [*sources, *[path for path in by_path if path.endswith(HEADERS) and stem(path) in stems]]
+        headers = [path for path in by_path if path.endswith(HEADERS) and stem(path) in stems]
+        files = [*sources, *headers, *described.of_sources(sources)]
         code = tuple([by_path[path] for path in dict.fromkeys(files) if path in by_path])
         if code:
             result.setdefault(name, NodeProgram(package, code))
@@ -146,11 +149,15 @@ def _component_programs(package: Package) -> Iterator[tuple[str, str]]:
 def is_closed(package: Package, workspace: Workspace) -> bool:
     """Return whether all code that declares parameters in the nodes of a package is known."""
     packages = _with_used(package, workspace)
-    return all(code.complete for owner in packages for code in owner.node_code) and all(
-        _is_passive(use.package) or use.package in workspace.by_name
-        for owner in packages
-        for use in owner.uses
-        if use.via in ("include", "import", "symbol")
+    return (
+        all(described_parameters(owner, workspace).known for owner in packages)
+        and all(code.complete for owner in packages for code in owner.node_code)
+        and all(
+            _is_passive(use.package) or use.package in workspace.by_name
+            for owner in packages
+            for use in owner.uses
+            if use.via in ("include", "import", "symbol")
+        )
     )
 
 
@@ -188,7 +195,8 @@ def _with_used(package: Package, workspace: Workspace) -> tuple[Package, ...]:
 
 _PASSIVE = frozenset({
     "ament_index_cpp", "ament_index_python", "angles", "builtin_interfaces", "cv_bridge", "eigen", "eigen3_cmake_module",
-    "geometry_msgs", "image_geometry", "kdl_parser", "launch", "launch_ros", "libopencv-dev", "message_filters", "orocos_kdl",
+    "generate_parameter_library", "generate_parameter_library_py", "geometry_msgs", "image_geometry", "kdl_parser", "launch",
+    "launch_ros", "libopencv-dev", "message_filters", "orocos_kdl",
     "pcl_conversions", "python3-numpy", "python3-opencv", "rclcpp", "rclcpp_action", "rclcpp_components", "rclcpp_lifecycle",
     "rclpy", "rcl_interfaces", "rcpputils", "rcutils", "rosidl_runtime_cpp", "tf2", "tf2_eigen", "tf2_geometry_msgs", "tf2_kdl",
     "tf2_ros", "tf2_sensor_msgs", "tf_transformations", "urdf", "yaml_cpp_vendor", "yaml-cpp",

@@ -62,7 +62,7 @@ def wrong_types(uses: Iterable[NodeParameterFile], workspace: Workspace) -> Iter
                 rows.setdefault(parameter.name, []).append(parameter)
         declared = program.declared
         for name, parameters in rows.items():
-            found = declared.get(name)
+            found = declared.get(name) or next((declared[key] for key in declared if _fits(name, key)), None)
             if found is None or not all(_differ(parameter.type, found.type) for parameter in parameters):
                 continue
             for parameter in parameters:
@@ -102,11 +102,33 @@ def undeclared(uses: Sequence[NodeParameterFile], workspace: Workspace) -> Itera
         if not own or _is_of_every_node(parameter.name):
             continue
         last = parameter.name.rpartition(".")[2]
-        if any(parameter.name in words or last in words for _, _, words, _ in own):
+        if any(parameter.name in words or last in words or _is_described(parameter.name, words) for _, _, words, _ in own):
             continue
         passed, names, _, free = own[0]
         near = similar_names(parameter.name, free, 1, 0.8)
         yield Undeclared(passed, parameter, names[0], near[0] if near else "")
+
+
+def _is_described(name: str, words: frozenset[str]) -> bool:
+    """Return whether a file of generate_parameter_library has a parameter, perhaps below a prefix that the code adds."""
+    tails = [name[at + 1 :] for at, letter in enumerate(name) if letter == "." and "." in name[at + 1 :]]
+    if not set(tails).isdisjoint(words):
+        return True
+    return any(_fits(tail, word) for word in words if _MAPPED in word for tail in (name, *tails))
+
+
+_MAPPED = "__map_"
+"""What is in front of a part of a name that stands for any name (generate_parameter_library)."""
+
+
+def _fits(name: str, described: str) -> bool:
+    """Return whether a name of a parameter fits a name with mapped parts: ``pid.elbow.p`` fits ``pid.__map_joints.p``."""
+    if _MAPPED not in described:
+        return False
+    parts, pattern = name.split("."), described.split(".")
+    return len(parts) == len(pattern) and all(
+        part == wanted or wanted.startswith(_MAPPED) for part, wanted in zip(parts, pattern, strict=True)
+    )
 
 
 def _is_of_every_node(name: str) -> bool:

@@ -13,7 +13,7 @@ from posixpath import normpath
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.launch.detect import is_of_ros_1
-from ros_lint.collectors.resources import parameter_files
+from ros_lint.collectors.resources import generated_parameters, parameter_files
 from ros_lint.collectors.resources.xacro_conditions import inactive_ranges
 from ros_lint.facts.sources import FileFacts, LookUp, Mention
 
@@ -58,7 +58,7 @@ def collect(source: Text) -> FileFacts:
     """Return the packages that a resource file names, the files that it looks up, and the parameters of a YAML file."""
     facts = _packages(source)
     if source.path.endswith((".yaml", ".yml")):
-        return facts._replace(parameters=parameter_files.collect(source))
+        return facts._replace(parameters=parameter_files.collect(source), nodes=generated_parameters.collect(source))
     return facts
 
 
