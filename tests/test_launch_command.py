@@ -251,6 +251,17 @@ def generate_launch_description():
     ]
 
 
+def test_components_are_shown_below_their_containers() -> None:
+    load = '<load_composable_node target="NAME"><composable_node pkg="p" plugin="p::X" name="x"/></load_composable_node>'
+    container = '<node_container pkg="rclcpp_components" exec="component_container" name="c" namespace="n"/>'
+    once = load.replace("NAME", "/n/c") + container + '<node pkg="p" exec="last"/>'
+    body = ["container as /n/c", "  component p p::X as /x", "node p last"]
+    for text, expected in ((once, body), (once + container, ["component p p::X as /x", "  in container /n/c"])):
+        output, _, _ = ask(package("p", {"launch/a.launch.xml": xml(text)}), "p", "a.launch.xml")
+        lines = [line[2:].replace("node rclcpp_components component_", "") for line in output.splitlines()[1:]]
+        assert [line for line in lines if "error" not in line][: len(expected)] == expected
+
+
 def test_components_are_shown_with_their_containers() -> None:
     assert launch(
         '<node_container pkg="rclcpp_components" exec="component_container" name="c" namespace="n">'
@@ -261,12 +272,10 @@ def test_components_are_shown_with_their_containers() -> None:
     ) == [
         "node rclcpp_components component_container as /n/c",
         "component p p::A as /a",
-        "in container /n/c",
         "component p p::B as /b",
         "in container /other",
         "node rclcpp_components component_container as /d",
         "component p p::C as /c",
-        "in container /d",
     ]
 
 
@@ -671,6 +680,28 @@ def test_files_that_the_launch_file_opens_have_to_exist(missing: str) -> None:
     _, err, code = ask(files, "p", "a.launch.py")
     expected = "launch/missing: 'p' does not install 'launch/missing'"
     assert (expected in err, code) == ((True, 1) if missing else (False, 0))
+
+
+def test_a_parameter_file_for_all_nodes_is_rewritten() -> None:
+    text = """
+import os
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node, SetParametersFromFile
+from nav2_common.launch import RewrittenYaml
+
+def generate_launch_description():
+    path = os.path.join(get_package_share_directory("p"), "launch", "FILE")
+    rewritten = RewrittenYaml(source_file=path, param_rewrites={"rate": "7"}, convert_types=True)
+    return LaunchDescription([SetParametersFromFile(rewritten), Node(package="p", executable="launch", name="n")])
+"""
+    parameters = "n:\n  ros__parameters: {rate: 5, count: 1}\n"
+    files = package("p", {"launch/a.launch.py": text.replace("FILE", "a.yaml"), "launch/a.yaml": parameters})
+    output, err, code = ask(files, "p", "a.launch.py", options=EVERYTHING._replace(node="n"))
+    assert [line.split("  (")[0].strip() for line in output.splitlines() if " = " in line] == ["count = 1", "rate = 7"]
+    assert (err, code) == ("", 0)
+    _, err, code = ask({**files, "p/launch/a.launch.py": text.replace("FILE", "b.yaml")}, "p", "a.launch.py")
+    assert ("'p' does not install 'launch/b.yaml'" in err, code) == (True, 1)
 
 
 def test_substitutions_in_a_parameter_file_need_their_configurations() -> None:

@@ -304,10 +304,9 @@ class _Run:
         if action.kind == "remap":
             return scope._replace(remappings=(*scope.remappings, (names, texts)))
         if action.kind == "parameter":
-            given = [
-                GivenParameter(name, texts, action.value.span if action.value else None, scope.certain, is_rule=True)
-                for name in names
-            ]
+            span, changes = (action.value.span, self._filling.changes(action.value, scope)) if action.value else (None, ())
+            given = [GivenParameter(name, texts, span, scope.certain, changes, is_rule=True) for name in names]
+            self._note_changed_files(action, given, scope)
             return scope._replace(parameters=(*scope.parameters, *given))
         environment = dict(scope.environment)
         if action.name is None:

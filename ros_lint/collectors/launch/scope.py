@@ -161,8 +161,11 @@ class Filling:
         texts = self.texts(value, scope)
         if not certain:
             self.unset = unset
-        changes = [self._change(change, scope) for change in value.changes if self.may_hold(change.conditions, scope)]
-        return GivenParameter(name, texts, value.span, certain, tuple(changes))
+        return GivenParameter(name, texts, value.span, certain, self.changes(value, scope))
+
+    def changes(self, value: LaunchValue, scope: LaunchScope) -> tuple[FilledChange, ...]:
+        """Return the changes of a parameter file in a scope, in order."""
+        return tuple([self._change(change, scope) for change in value.changes if self.may_hold(change.conditions, scope)])
 
     def _change(self, change: FileChange, scope: LaunchScope) -> FilledChange:
         values, keys = (tuple([(old, self.texts(new, scope)) for old, new in pairs]) for pairs in (change.values, change.keys))

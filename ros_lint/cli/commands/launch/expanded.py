@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from ros_lint.collectors.symbolic_text import UNKNOWN, readable
@@ -43,6 +44,28 @@ def full_names(started: Started) -> tuple[str, ...]:
     return tuple(dict.fromkeys([f"{space}/{name or '...'}" for space in spaces for name in started.name]))
 
 
+def container_names(started: Started) -> tuple[str, ...]:
+    """Return the possible full names of the container of a component, () for any other action."""
+    return tuple([name if name.startswith("/") else f"/{name}" for name in started.container])
+
+
+def below_containers(started: Sequence[Started]) -> list[Started]:
+    """Return actions with each component after its container, one level deeper, if exactly one action starts the container."""
+    names = Counter(name for action in started if action.kind == "node" for name in full_names(action))
+    inside: dict[str, list[Started]] = {}
+    others: list[Started] = []
+    for action in started:
+        container = container_names(action)
+        is_started = len(container) == 1 and names[container[0]] == 1
+        (inside.setdefault(container[0], []) if is_started else others).append(action)
+    result: list[Started] = []
+    for action in others:
+        result.append(action)
+        for name in full_names(action) if action.kind == "node" else ():
+            result += [part._replace(depth=action.depth + 1, container=()) for part in inside.pop(name, ())]
+    return result
+
+
 Detail = tuple[str | tuple[str, ...], ...]
 """A line about an action: words, and possible values as tuples."""
 
@@ -50,7 +73,7 @@ Detail = tuple[str | tuple[str, ...], ...]
 def details(started: Started) -> Iterator[Detail]:
     """Yield a line for each setting of an action: its container, parameters, remappings, environment and arguments."""
     if started.container:
-        yield "in container ", tuple([name if name.startswith("/") else f"/{name}" for name in started.container])
+        yield "in container ", container_names(started)
     if started.words:
         spaced = [piece for texts in started.words for piece in (" ", texts)]
         yield "arguments", *spaced

@@ -29,7 +29,9 @@ from typing import TYPE_CHECKING, Any
 
 from ros_lint.cli.commands.launch.expanded import (
     Detail,
+    below_containers,
     condition_text,
+    container_names,
     details,
     final_parameters,
     full_names,
@@ -95,7 +97,7 @@ def tree(expanded: ExpandedFile) -> str:
     expansion = expanded.expansion
     lines = [expanded.file.path]
     lines += [f"  {_argument(argument)}" for argument in expansion.arguments if argument.depth == 0]
-    for started in expansion.started:
+    for started in below_containers(expansion.started):
         indent = "  " * (started.depth + 1)
         lines.append(f"{indent}{_head(started)}")
         lines += [f"{indent}  {detail}" for detail in _details(started, expanded)]
@@ -232,7 +234,7 @@ def _item(started: Started, marks: Marks) -> dict[str, Any]:
         "target": _list(started.target),
         "name": _list(started.name),
         "namespace": [f"/{space.strip('/')}" for space in _list(started.namespace)],
-        "container": _list(started.container),
+        "container": _list(container_names(started)),
         "words": [_list(texts) for texts in started.words],
         "later": started.later,
         "trigger": _list(started.trigger),

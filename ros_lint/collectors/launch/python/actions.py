@@ -15,6 +15,7 @@ from ros_lint.collectors import conditional_text
 from ros_lint.collectors.launch.expressions import means_true
 from ros_lint.collectors.launch.groups import group
 from ros_lint.collectors.launch.python import events, nodes
+from ros_lint.collectors.launch.python.file_changes import file_changes
 from ros_lint.collectors.launch.python.nodes import nested, started_node
 from ros_lint.collectors.launch.python.substitutions import SUBSTITUTIONS, is_text, texts
 from ros_lint.collectors.launch.python.walker import ActionBuilder, Walker, place_of
@@ -178,6 +179,15 @@ def _single_value(kind: str, *names: str) -> ActionBuilder:
     return build
 
 
+def _parameter_file(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
+    (action,) = _single_value("parameter", "filename")(walker, launch_object, conditions)
+    if action.value is None:
+        return [action]
+    node = launch_object.written(0, "filename")
+    changes = file_changes(walker, launch_object.get(0, "filename"), node, launch_object.source)
+    return [action._replace(value=action.value._replace(changes=changes))]
+
+
 def _group(walker: Walker, launch_object: LaunchObject, conditions: Conditions) -> list[LaunchAction]:
     children = walker.actions(launch_object.get(0, "actions"), (), place_of(launch_object))
     configurations = tuple(_configurations(walker, launch_object, -1))
@@ -276,7 +286,7 @@ _BUILDERS: Mapping[str, ActionBuilder] = {
     "AppendEnvironmentVariable": _append,
     "SetParameter": _assignment("parameter", ("name",), ("value",)),
     "SetRemap": _assignment("remap", ("src",), ("dst",)),
-    "SetParametersFromFile": _single_value("parameter", "filename"),
+    "SetParametersFromFile": _parameter_file,
     "PushRosNamespace": _single_value("namespace", "namespace"),
     "PushROSNamespace": _single_value("namespace", "namespace"),
     "GroupAction": _group,

@@ -18,6 +18,7 @@ from ros_lint.base.html_page import fill, resource
 from ros_lint.base.json_text import for_html
 from ros_lint.cli.commands.launch.expanded import (
     Detail,
+    below_containers,
     condition_text,
     details,
     final_parameters,
@@ -101,7 +102,7 @@ def render(expanded: ExpandedFile, changeable: Sequence[Control]) -> str:
     page = _Page(expanded, {control.name: control for control in changeable})
     target = expanded.target
     origin = target.source if target.explicit else "assumed; set with --distro"
-    tree = "".join(page.items(expanded.expansion.started, 0))
+    tree = "".join(page.items(below_containers(expanded.expansion.started), 0))
     return fill(
         resource(__name__, "page.html"),
         {
