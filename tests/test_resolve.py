@@ -13,6 +13,7 @@ from ros_lint.knowledge.providers import Providers
 from ros_lint.knowledge.world import Resolution
 from ros_lint.workspace.usage.package_files import PackageSource
 from ros_lint.workspace.usage.resolve import ProviderMatch, Resolver
+from tests.one_package import load
 
 NOTHING = ProviderMatch(())
 
@@ -196,3 +197,83 @@ def test_an_interface_module_of_the_workspace_belongs_to_its_package(module: str
     names = Names(resolutions={"arm": "known"})
     assert match("import", module, names, source("arm")) == (ProviderMatch(("arm",)) if is_interface else NOTHING)
     assert match("import", module, names, source("leg")) == NOTHING
+
+
+# --- uses of a package -------------------------------------------------------------------------------------------
+
+
+USES = """\
+CMakeLists.txt:2 ament_cmake cmake Role.BUILD: find_package(ament_cmake)
+CMakeLists.txt:4 rclcpp cmake Role.BUILD: find_package(rclcpp)
+CMakeLists.txt:5 geometry_msgs cmake Role.BUILD: find_package(geometry_msgs)
+CMakeLists.txt:8 action_msgs macro Role.BUILD|EXPORT|EXEC: an action
+CMakeLists.txt:8 rosidl_default_generators macro Role.TOOL: rosidl_generate_interfaces()
+CMakeLists.txt:13 rclcpp target Role.BUILD: rclcpp::rclcpp
+CMakeLists.txt:14 ament_cmake_export_dependencies macro Role.TOOL: ament_export_dependencies()
+CMakeLists.txt:14 tf2 target Role.EXPORT: ament_export_dependencies(tf2)
+CMakeLists.txt:20 action_msgs macro Role.TEST: an action
+CMakeLists.txt:20 rosidl_default_generators macro Role.TEST: rosidl_generate_interfaces()
+CMakeLists.txt:21 ament_cmake_gtest macro Role.TEST: ament_add_gtest()
+CMakeLists.txt:23 ament_cmake_core macro Role.TOOL: ament_package()
+action/Go.action:1 std_msgs interface Role.BUILD|EXPORT|EXEC: std_msgs/Header
+include/robot/robot.hpp:1 geometry_msgs include Role.BUILD|EXPORT|EXEC: #include <geometry_msgs/msg/pose.hpp>
+launch/robot.launch.xml:1 rviz2 launch Role.EXEC: node rviz2
+launch/robot.launch.xml:1 slam_toolbox launch Role.EXEC: include launch/a.launch.py
+scripts/go.py:2 arm_msgs import Role.EXEC: import of arm_msgs.msg
+scripts/go.py:4 python3-opencv import Role.EXEC: import of cv2, with the error caught optional
+scripts/go.py:7 ament_index_python import Role.EXEC: import of ament_index_python
+src/idle.cpp:1 shape_msgs include Role.BUILD|EXEC: #include <shape_msgs/msg/plane.hpp> uncertain
+src/more.cpp:1 arm_msgs include Role.BUILD|EXEC: #include <arm_msgs/msg/a.hpp>
+src/more.cpp:2 hand_msgs include Role.BUILD|EXEC: #include <hand_msgs/msg/a.hpp> uncertain
+src/more.cpp:3 leg_msgs include Role.BUILD|EXEC: #include <leg_msgs/msg/a.hpp> uncertain
+src/robot.cpp:5 eigen include Role.BUILD|EXEC: #include <Eigen/Dense>
+src/robot.cpp:6 nlohmann-json-dev include Role.BUILD|EXEC: #include <nlohmann/json.hpp>
+test/t.cpp:1 ament_cmake_gtest include Role.TEST: #include <gtest/gtest.h>
+"""
+
+
+def test_the_uses_of_a_package_are_complete() -> None:
+    lines = """
+find_package(rclcpp REQUIRED)
+find_package(geometry_msgs REQUIRED)
+find_package(arm_msgs REQUIRED)
+find_package(hand_msgs QUIET)
+rosidl_generate_interfaces(robot action/Go.action)
+FetchContent_Declare(fmt GIT_REPOSITORY https://code.example/fmt.git)
+FetchContent_MakeAvailable(fmt)
+add_library(robot SHARED src/robot.cpp src/more.cpp)
+target_include_directories(robot PRIVATE private)
+target_link_libraries(robot rclcpp::rclcpp)
+ament_export_dependencies(tf2)
+install(DIRECTORY include/ DESTINATION include)
+install(PROGRAMS scripts/go.py DESTINATION lib/robot)
+install(DIRECTORY launch DESTINATION share/robot)
+if(BUILD_TESTING)
+  find_package(leg_msgs REQUIRED)
+  rosidl_generate_interfaces(robot_test action/Go.action)
+  ament_add_gtest(t test/t.cpp)
+endif()"""
+    files = {
+        "include/robot/robot.hpp": ["geometry_msgs/msg/pose.hpp"],
+        "src/robot.cpp": ["robot/robot.hpp", "yaml-cpp/yaml.h", "fmt/core.h", "fmt.h", "Eigen/Dense", "nlohmann/json.hpp"],
+        "src/more.cpp": [f"{name}_msgs/msg/a.hpp" for name in ("arm", "hand", "leg")],
+        "src/idle.cpp": ["shape_msgs/msg/plane.hpp"],
+        "private/yaml-cpp/yaml.h": [],
+        "test/t.cpp": ["gtest/gtest.h"],
+    }
+    texts = {path: "".join(f"#include <{header}>\n" for header in found) for path, found in files.items()}
+    texts["scripts/go.py"] = (
+        "#!/usr/bin/env python3\nimport arm_msgs.msg\ntry:\n    import cv2\nexcept ImportError:\n    pass\n"
+        "from ament_index_python import get_package_share_directory as share\nprint(share('nav2_bringup'), share('unknown'))\n"
+    )
+    texts["launch/robot.launch.xml"] = (
+        '<launch><node pkg="rviz2" exec="rviz2"/><include file="$(find-pkg-share slam_toolbox)/launch/a.launch.py"/></launch>'
+    )
+    texts["action/Go.action"] = "std_msgs/Header header\n---\n---\n"
+    workspace = load(lines, texts)
+    found = [
+        f"{use.span.path[6:]}:{use.span.line} {use.providers[0]} {use.via} {use.role}: {use.what}"
+        f"{' optional' * use.optional}{' uncertain' * (not use.certain)}"
+        for use in workspace.packages[0].uses
+    ]
+    assert found == USES.splitlines()
