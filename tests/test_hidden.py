@@ -7,7 +7,7 @@ import pytest
 from ros_lint.base.tree import MemoryTree
 from ros_lint.engine import registry
 from ros_lint.engine.check import ReportContext, check
-from ros_lint.engine.report import MINOR, OFF, HiddenCount, Report
+from ros_lint.engine.report import MINOR, OFF, BlindSpot, HiddenCount, Report
 from ros_lint.engine.selection import select
 from ros_lint.workspace.loader import Loader
 from ros_lint.workspace.target import TargetDistro
@@ -75,3 +75,34 @@ def test_findings_of_rules_that_the_settings_mention_are_not_counted(settings: d
 
 def test_suppressed_findings_of_rules_that_are_off_are_not_counted() -> None:
     assert not report("  # ros-lint: ignore[link-directories] soon").hidden
+
+
+@pytest.mark.parametrize("explicit", [True, False])
+def test_a_report_has_what_was_checked_and_what_was_hidden(explicit: bool) -> None:
+    script = "project({0})\nfind_package({1} REQUIRED)\ninclude(${{UNHEARD_OF}}/all.cmake)\n"
+    files = {
+        ".github/workflows/ci.yaml": "jobs:\n  build:\n    env:\n      ROS_DISTRO: humble\n",
+        "src/odd/package.xml": "<package",
+    }
+    for path, tool in (
+        ("src/arm", "ament_cmake"),
+        ("src/leg", "ament_cmake"),
+        ("old/base", "catkin"),
+        ("more/lib", "ament_cmake"),
+    ):
+        name = path.rpartition("/")[2]
+        files[f"{path}/package.xml"] = manifest_text(name, [TOOL[0].replace("ament_cmake", tool)], tool)
+        files[f"{path}/CMakeLists.txt"] = script.format(name, tool)
+    loader = Loader(MemoryTree(files), ("",), TargetDistro("jazzy", "test", explicit))
+    rules = registry.load()
+    found = check(loader.load_all(), (), select(rules), ReportContext(rules, "2026-01-02", ("src", "old"), ("careful",)))
+    hidden = ("used dependencies", "executables", "installed share files", "Python modules", "libraries", "interfaces")
+    assert found.blind_spots == tuple(
+        BlindSpot(what, ("arm", "leg")) for what in (*hidden, "components", "exported dependencies")
+    )
+    assert found.ros1 == ("base",)
+    assert (found.packages, found.context_packages) == (4, 1)
+    assert found.package_names == ("arm", "base", "leg", "src/odd")
+    assert [named.distro for named in found.named_distros] == ([] if explicit else ["humble"])
+    assert (found.workspace, found.data_date, found.warnings) == ("", "2026-01-02", ("careful",))
+    assert [(issue.rule.name, issue.package) for issue in found.issues] == [("rejected-manifest", "")]
