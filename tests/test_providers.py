@@ -109,6 +109,10 @@ def test_headers_are_resolved(header: str, names: tuple[str, ...]) -> None:
     assert result.known == bool(names)
 
 
+def test_a_package_of_the_workspace_with_the_name_of_a_shared_folder_is_the_only_provider() -> None:
+    assert world(member("moveit_benchmarks")).by_include("moveit/benchmarks/server.h").names == ("moveit_benchmarks",)
+
+
 def test_headers_of_the_tool_chain_need_no_package() -> None:
     assert all(world().by_include(header).none_needed for header in ("vector", "sys/stat.h", "cstdint", "unistd.h"))
 

@@ -239,8 +239,8 @@ find_package(geometry_msgs REQUIRED)
 find_package(arm_msgs REQUIRED)
 find_package(hand_msgs QUIET)
 rosidl_generate_interfaces(robot action/Go.action)
-FetchContent_Declare(fmt GIT_REPOSITORY https://code.example/fmt.git)
-FetchContent_MakeAvailable(fmt)
+FetchContent_Declare(sqlite3 GIT_REPOSITORY https://code.example/sqlite3.git)
+FetchContent_MakeAvailable(sqlite3)
 add_library(robot SHARED src/robot.cpp src/more.cpp)
 target_include_directories(robot PRIVATE private)
 target_link_libraries(robot rclcpp::rclcpp)
@@ -255,7 +255,14 @@ if(BUILD_TESTING)
 endif()"""
     files = {
         "include/robot/robot.hpp": ["geometry_msgs/msg/pose.hpp"],
-        "src/robot.cpp": ["robot/robot.hpp", "yaml-cpp/yaml.h", "fmt/core.h", "fmt.h", "Eigen/Dense", "nlohmann/json.hpp"],
+        "src/robot.cpp": [
+            "robot/robot.hpp",
+            "yaml-cpp/yaml.h",
+            "sqlite3/core.h",
+            "sqlite3.h",
+            "Eigen/Dense",
+            "nlohmann/json.hpp",
+        ],
         "src/more.cpp": [f"{name}_msgs/msg/a.hpp" for name in ("arm", "hand", "leg")],
         "src/idle.cpp": ["shape_msgs/msg/plane.hpp"],
         "private/yaml-cpp/yaml.h": [],
