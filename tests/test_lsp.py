@@ -21,6 +21,7 @@ DEMO = Path(__file__).parents[1] / "fixtures" / "workspaces" / "demo"
 DRIVER = "src/rover_driver/package.xml"
 LAUNCH = "src/rover_bringup/launch/rover.launch.py"
 NODE = "src/rover_driver/src/driver_node.cpp"
+SCRIPT = "src/rover_driver/CMakeLists.txt"
 
 
 class Editor:
@@ -195,6 +196,20 @@ def test_the_configuration_is_read_again_when_it_changes(tmp_path: Path) -> None
     edit(tmp_path, steps, isolated=False)
 
 
+def test_the_progress_of_the_first_check_is_shown(tmp_path: Path) -> None:
+    async def steps(editor: Editor) -> None:
+        await editor.settled()
+        [(first, *between, last)] = editor.client.progress_reports.values()
+        assert isinstance(first, types.WorkDoneProgressBegin)
+        assert first.title == "ros-lint: demo"
+        assert isinstance(last, types.WorkDoneProgressEnd)
+        messages = [report.message or "" for report in between if isinstance(report, types.WorkDoneProgressReport)]
+        assert messages
+        assert len(messages) == len(between)
+
+    edit(tmp_path, steps, client="visual-studio-code")
+
+
 def test_a_quick_fix_resolves_its_finding(tmp_path: Path) -> None:
     async def steps(editor: Editor) -> None:
         [action] = await editor.actions(NODE, editor.position(NODE, "sensor_msgs/msg"), "quickfix")
@@ -237,6 +252,37 @@ def test_hover_describes_a_dependency(tmp_path: Path) -> None:
         assert first.startswith("**rclcpp**: released in jazzy, version ")
         assert declared == "Declared by 'rover_driver' as `<depend>`."
         assert used == "Used by 'rover_driver':"
+
+    edit(tmp_path, steps)
+
+
+VARIABLES = (
+    ("set(NODES a b)\nmessage(${NODES})\n", "{NODES", "**NODES** = `a`; `b`"),
+    ("set(NODES a b)\nlist(APPEND NODES c)\n", "NODES c", "**NODES** = `a`; `b`; `c`"),
+    ("message(${PROJECT_NAME})\n", "PROJECT_NAME}", "**PROJECT_NAME** = `rover_driver`"),
+    ("set(HERE ${CMAKE_CURRENT_SOURCE_DIR}/x)\n", "HERE", "**HERE** = `<workspace>/src/rover_driver/x`"),
+    ("find_package(unknown)\nmessage(${unknown_DIR}/x)\n", "unknown_DIR}", "**unknown_DIR** = `...`"),
+    ("message(${NONE})\n", "NONE", "**NONE** is not set"),
+    ("if(FALSE)\nmessage(${NONE})\nendif()\n", "NONE", "**NONE**: this command does not run"),
+    ("foreach(i a b)\nmessage(${i})\nendforeach()\n", "i}", "- `a`\n- `b`"),
+    ("macro(show what)\nmessage(${what})\nendmacro()\nshow(c)\n", "what})", "**what** = `c`"),
+    ("if(NOT WIN32)\nendif()\n", "WIN32", "**WIN32** is not set"),
+)
+
+
+def test_hover_shows_the_value_of_a_cmake_variable(tmp_path: Path) -> None:
+    head = "cmake_minimum_required(VERSION 3.8)\nproject(rover_driver)\n"
+
+    async def steps(editor: Editor) -> None:
+        editor.open(SCRIPT)
+        for text, word, expected in VARIABLES:
+            editor.change(SCRIPT, head + text)
+            before = head + text[: text.index(word)]
+            position = types.Position(before.count("\n"), len(before.rpartition("\n")[2]) + 1)
+            hover = await editor.client.text_document_hover_async(types.HoverParams(editor.identifier(SCRIPT), position))
+            assert hover is not None, text
+            assert isinstance(hover.contents, types.MarkupContent)
+            assert hover.contents.value.endswith(expected)
 
     edit(tmp_path, steps)
 
@@ -296,23 +342,30 @@ def test_references_of_a_package(tmp_path: Path) -> None:
     edit(tmp_path, steps)
 
 
-@pytest.mark.parametrize(
-    ("path", "text", "first"),
-    [
-        ("src/rover_driver/package.xml", "<package><depend>rover_i", "rover_interfaces"),
-        ("src/rover_driver/package.xml", "<package><exec_depend>tf2_geometry_m", "tf2_geometry_msgs"),
-        (LAUNCH, "Node(package='rover_d", "rover_driver"),
-        (LAUNCH, "Node(package='rover_driver', executable='dri", "driver_node"),
-    ],
+COMPLETIONS = (
+    (DRIVER, "<package><depend>rover_i", "rover_interfaces"),
+    (DRIVER, "<package><exec_depend>tf2_geometry_m", "tf2_geometry_msgs"),
+    (LAUNCH, "Node(package='rover_d", "rover_driver"),
+    (LAUNCH, "Node(package='rover_driver', executable='dri", "driver_node"),
+    (LAUNCH, "os.path.join(get_package_share_directory('rover_driver'), 'config', 'dr", "driver.yaml"),
+    (LAUNCH, "[FindPackageShare('rover_driver'), 'conf", "config/driver.yaml"),
+    (LAUNCH, '<include file="$(find-pkg-share rover_bringup)/', "launch/rover.launch.py"),
 )
-def test_names_are_completed(tmp_path: Path, path: str, text: str, first: str) -> None:
+
+
+def test_names_are_completed(tmp_path: Path) -> None:
     async def steps(editor: Editor) -> None:
-        editor.open(path, text)
-        result = await editor.client.text_document_completion_async(
-            types.CompletionParams(editor.identifier(path), types.Position(0, len(text)))
-        )
-        assert isinstance(result, types.CompletionList)
-        assert result.items[0].label == first
+        editor.open(DRIVER)
+        editor.open(LAUNCH)
+        for path, text, first in COMPLETIONS:
+            saved = editor.text(path)
+            editor.change(path, text)
+            result = await editor.client.text_document_completion_async(
+                types.CompletionParams(editor.identifier(path), types.Position(0, len(text)))
+            )
+            assert isinstance(result, types.CompletionList)
+            assert result.items[0].label == first, text
+            editor.change(path, saved)
 
     edit(tmp_path, steps)
 

@@ -265,6 +265,15 @@ class Loader:
         """Return the text of a file, None if the file cannot be read."""
         return text_of(self.tree, path)
 
+    def variable_values(self, package: str, path: str, line: int, variable: str, *, assigned: bool) -> tuple[str | None, ...]:
+        """Return the values of a CMake variable in the last load, for the first distribution.
+
+        ``path`` and ``line`` are a place in the package at the path ``package``. See
+        :func:`ros_lint.collectors.cmake.variable_values.values_at`.
+        """
+        scripts = self._states[0].reading.scripts
+        return scripts.variable_values(package, path, line, variable, assigned=assigned)
+
     def suppressions(self) -> Iterator[Suppression]:
         """Yield the suppression comments in all files of the packages of the last load."""
         by_path = {path: comments for state in self._states for path, comments in state.reading.suppressions()}

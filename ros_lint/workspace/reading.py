@@ -97,6 +97,11 @@ class Reading:
         ]
         return Read(read_packages, evaluation, launch)
 
+    @property
+    def scripts(self) -> build_scripts.Scripts:
+        """The build scripts of the packages that were read last."""
+        return self._scripts
+
     def suppressions(self) -> Iterator[tuple[str, tuple[Suppression, ...]]]:
         """Yield the path of each file with suppression comments, and these comments."""
         for path in self._paths:

@@ -23,6 +23,7 @@ from ros_lint.collectors.cmake.commands import math as cmake_math
 from ros_lint.collectors.cmake.commands import string as cmake_string
 from ros_lint.collectors.cmake.commands import system_queries as cmake_answers
 from ros_lint.collectors.cmake.commands import targets as cmake_targets
+from ros_lint.collectors.cmake.commands.ament import run_external_command
 from ros_lint.collectors.cmake.commands.compiled_macros import released
 from ros_lint.collectors.cmake.evaluator import branches as cmake_branches
 from ros_lint.collectors.cmake.evaluator import definitions as cmake_definitions
@@ -89,14 +90,20 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
 
     No content of the files raises an exception.
     """
-    run = Run(sources, distro, helpers, cmake_ros.run_external_command)
+    run = Run(sources, distro, helpers, run_external_command)
     path = join(sources.path, _TOP)
-    parsed = sources.scripts.get(_TOP)
-    if parsed is None:
+    if sources.scripts.get(_TOP) is None:
         return BuildScript(path, opaque=(Opaque(ALL_FACETS, "CMakeLists.txt cannot be read", file_start(path)),))
+    run_script(run, sources)
+    return _result(run, path)
+
+
+def run_script(run: Run, sources: Sources) -> None:
+    """Run the CMakeLists.txt of a package, which must exist, and leave the results in ``run``. It raises no exception."""
+    path = join(sources.path, _TOP)
     frame = CallFrame(True, path, run.paths.absolute(_TOP))
     try:
-        exits = cmake_flow.run_file(run, parsed.commands, frame)
+        exits = cmake_flow.run_file(run, sources.scripts[_TOP].commands, frame)
     except (BudgetExceeded, RecursionError):
         run.frames[:] = [frame]
         run.budget.characters = MOST_CHARACTERS  # _result() evaluates texts once more
@@ -105,7 +112,6 @@ def evaluate(sources: Sources, distro: str = "", helpers: Mapping[str, Helper] =
         run.frames[:] = [frame]
         if exits & STOP:
             run.hide(ALL_FACETS, "the script stops with an error before its end", frame.command and frame.command.place(path))
-    return _result(run, path)
 
 
 def _result(run: Run, path: str) -> BuildScript:

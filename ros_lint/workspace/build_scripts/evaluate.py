@@ -156,17 +156,32 @@ class Scripts:
         from ros_lint.collectors.cmake.released_macros import opaque_packages  # noqa: PLC0415
 
         inputs = sources(self._tree, parts, self._surroundings)
-        own_helpers = self._helpers[workspace_of(parts.package.path)]
-        others = [of_workspace for of_workspace in self._helpers.values() if of_workspace is not own_helpers]
-        visible: Mapping[str, Helper] = ChainMap(own_helpers, *others)
-        if self._recorder:
-            visible = _RecordedHelpers(visible, self._recorder, self._of_helper)
-        script = cmake.evaluate(inputs, self._distro, visible)
+        script = cmake.evaluate(inputs, self._distro, self._visible_from(parts.package))
         helps = script.exports.config_extras and parts.package.name not in opaque_packages()
         helper = Helper(inputs, script) if helps else None
         folder = parts.package.path
         calls = (cmake_calls.collect(join(folder, file), parsed) for file, parsed in sorted(parts.commands.items()))
         return script._replace(commands=script.commands._replace(calls=ByName(chain.from_iterable(calls)))), helper
+
+    def _visible_from(self, package: DiscoveredPackage) -> Mapping[str, Helper]:
+        """Return the packages with CONFIG_EXTRAS that a package can find, by name. Look-ups are recorded."""
+        own_helpers = self._helpers[workspace_of(package.path)]
+        others = [of_workspace for of_workspace in self._helpers.values() if of_workspace is not own_helpers]
+        visible: Mapping[str, Helper] = ChainMap(own_helpers, *others)
+        return _RecordedHelpers(visible, self._recorder, self._of_helper) if self._recorder else visible
+
+    def variable_values(self, package: str, path: str, line: int, variable: str, *, assigned: bool) -> tuple[str | None, ...]:
+        """Return the values of a CMake variable at a line of a file of the package at the path ``package``.
+
+        See :func:`ros_lint.collectors.cmake.variable_values.values_at`. The result is () for a package without a CMakeLists.txt.
+        """
+        from ros_lint.collectors.cmake.variable_values import values_at  # noqa: PLC0415
+
+        parts = self._parts.get(package)
+        if parts is None or not parts.of_cmake:
+            return ()
+        inputs = sources(self._tree, parts, self._surroundings)
+        return values_at(inputs, self._distro, self._visible_from(parts.package), path, line, variable, assigned=assigned)
 
 
 class _RecordedHelpers(Mapping[str, "Helper"]):

@@ -191,6 +191,15 @@ _PACKAGE_VALUE = re.compile(
     r"""(?:\b(?:package|pkg)\s*=\s*|\bpkg:\s*|\b(?:get_package_share_directory|FindPackageShare)\(\s*)["']?([\w-]*)\Z"""
 )
 _EXECUTABLE_VALUE = re.compile(r"""(?:\bexecutable\s*=\s*|\bexec\s*=\s*|\bexec:\s*)["']?([\w.-]*)\Z""")
+_SHARE_PATHS = (
+    re.compile(r"\$\(find-pkg-share (?P<package>[\w-]+)\)(?P<folders>)/(?P<word>[\w./-]*)\Z"),
+    re.compile(
+        r"""\b(?:get_package_share_directory|FindPackageShare)\(\s*["'](?P<package>[\w-]+)["']\s*\)\s*,"""
+        r"""(?P<folders>(?:\s*["'][\w./-]*["']\s*,)*)\s*["'](?P<word>[\w./-]*)\Z"""
+    ),
+)
+"""The beginning of the path of an installed file in a launch file: of XML, and of Python with the parts of a joined path."""
+_FOLDER = re.compile(r"[\w./-]+")
 _PACKAGE = re.compile(r"""\b(?:package|pkg)\s*[=:]\s*["']?([\w-]+)""")
 _MOST_LINES = 6
 """Number of lines above the name of an executable in which the name of its package is searched for."""
@@ -199,8 +208,8 @@ _MOST_LINES = 6
 def completions(workspace: Workspace, text: Text, place: Place) -> tuple[str, Sequence[str]]:
     """Return the word before a place, and at most 200 names that begin with the word and can replace it.
 
-    In a dependency tag, these are names of packages and rosdep keys; in a launch file, names of packages and of the
-    programs that packages install.
+    In a dependency tag, these are names of packages and rosdep keys; in a launch file, names of packages, of the programs
+    that packages install, and of the files in their share folders.
     """
     try:
         before = text.line(place.line)[: place.column - 1]
@@ -213,11 +222,16 @@ def completions(workspace: Workspace, text: Text, place: Place) -> tuple[str, Se
         names = set(workspace.by_name)
     elif match := _EXECUTABLE_VALUE.search(before):
         names = _programs(workspace, text, place)
+    elif match := next(filter(None, (pattern.search(before) for pattern in _SHARE_PATHS)), None):
+        names = _shared_files(workspace, match["package"], "/".join(_FOLDER.findall(match["folders"])))
     else:
         return "", ()
-    word = match[1]
+    word = match[match.lastindex or 0]
     of_workspace = set(workspace.by_name)
-    fitting = sorted((name for name in names if name.startswith(word)), key=lambda name: (name not in of_workspace, name))
+    fitting = sorted(
+        (name for name in names if name.startswith(word)),
+        key=lambda name: (name not in of_workspace, ".launch" not in name, name),
+    )
     return word, fitting[:MOST_COMPLETIONS]
 
 
@@ -228,6 +242,13 @@ def _programs(workspace: Workspace, text: Text, place: Place) -> set[str]:
     names = _PACKAGE.findall(before)
     programs = [installed_programs(package) for package in workspace.called(names[-1])] if names else []
     return {name for installed in programs if installed for name in installed.names}
+
+
+def _shared_files(workspace: Workspace, name: str, folder: str) -> set[str]:
+    """Return the paths of the files that a package installs below a folder of its share folder, relative to this folder."""
+    start = f"share/{name}/{folder}/" if folder else f"share/{name}/"
+    installs = [installed.path for package in workspace.called(name) for installed in package.built.products.installs]
+    return {path.removeprefix(start) for path in installs if path.startswith(start)}
 
 
 def links(workspace: Workspace, path: str) -> Iterator[tuple[Span, Span]]:

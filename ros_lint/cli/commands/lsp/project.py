@@ -104,6 +104,10 @@ class Project:
         session.loader.load_all(unsaved)  # the last snapshot shows the state of the last load
         return {path: data for path, data in changed.items() if unsaved.get(path) != data}
 
+    def variable_values(self, package: str, path: str, line: int, name: str, *, assigned: bool) -> tuple[str | None, ...]:
+        """Return the values of a CMake variable in the last check, see :meth:`Loader.variable_values`."""
+        return self._session.loader.variable_values(package, path, line, name, assigned=assigned)
+
     def refresh(self, paths: Mapping[str, object]) -> None:
         """Record that files changed on disk. ``paths`` are absolute. Raises UserError if the settings are now invalid."""
         relative = {os.path.relpath(path, self.base).replace(os.sep, "/") for path in paths}

@@ -14,8 +14,10 @@ from pygls.uris import to_fs_path
 
 from ros_lint import __version__
 from ros_lint.base.text import Span, to_bytes
-from ros_lint.cli.commands.lsp import findings, navigation
+from ros_lint.cli.commands.lsp import cmake_variables, findings, navigation
+from ros_lint.cli.commands.lsp.cmake_variables import Variable
 from ros_lint.cli.commands.lsp.positions import ENCODINGS, Place, Positions
+from ros_lint.cli.commands.lsp.progress import LoadingProgress
 from ros_lint.cli.commands.lsp.project import Project, Snapshot
 from ros_lint.errors import UserError
 
@@ -74,17 +76,18 @@ class RosLintServer(LanguageServer):
         self.ready.set()
 
     async def open(self, folder: str) -> None:
-        """Open and check a folder. An invalid configuration is reported to the user."""
-        try:
-            project = await self._work(lambda: Project(folder, self._options, self._environment, lambda step, done, total: None))
-        except UserError as error:
-            self._show(str(error))
-            return
-        for warning in project.warnings:
-            self.window_log_message(types.LogMessageParams(types.MessageType.Warning, f"ros-lint: {warning}"))
-        opened = OpenProject(project)
-        self._projects.append(opened)
-        await self.current(opened)
+        """Open and check a folder, and show the progress. An invalid configuration is reported to the user."""
+        async with LoadingProgress(self, f"ros-lint: {os.path.basename(folder)}") as progress:
+            try:
+                project = await self._work(lambda: Project(folder, self._options, self._environment, progress.update))
+            except UserError as error:
+                self._show(str(error))
+                return
+            for warning in project.warnings:
+                self.window_log_message(types.LogMessageParams(types.MessageType.Warning, f"ros-lint: {warning}"))
+            opened = OpenProject(project)
+            self._projects.append(opened)
+            await self.current(opened)
 
     async def close_folders(self, uris: list[str]) -> None:
         """Close the projects of folders and clear their diagnostics."""
@@ -150,6 +153,14 @@ class RosLintServer(LanguageServer):
         async with opened.lock:
             changed = await self._work(lambda: opened.project.fixes(self.unsaved(opened.project), rule))
         return findings.workspace_edit(snapshot, self.positions(snapshot), changed)
+
+    async def variable_values(self, opened: OpenProject, package: str, variable: Variable) -> tuple[str | None, ...]:
+        """Return the values of a CMake variable at its place, which is in the package at the path ``package``."""
+        name, span, assigned = variable
+        async with opened.lock:
+            return await self._work(
+                lambda: opened.project.variable_values(package, span.path, span.line, name, assigned=assigned)
+            )
 
     def positions(self, snapshot: Snapshot) -> Positions:
         """Return a converter of places to positions in the encoding that the editor and the server agreed on."""
@@ -276,11 +287,18 @@ def _add_navigation(server: RosLintServer) -> None:
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hover(params: types.HoverParams) -> types.Hover | None:
         request = await _request(server, params.text_document.uri, params.position)
-        if request is None or request.target is None:
+        if request is None:
             return None
         owner = request.snapshot.workspace.owner(request.path)
-        text = navigation.describe(request.snapshot, request.target, owner)
-        return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), request.positions.range(request.target.span))
+        source = request.snapshot.text(request.path)
+        if request.target is not None:
+            text, span = navigation.describe(request.snapshot, request.target, owner), request.target.span
+        elif owner and source and (variable := cmake_variables.variable_at(source, request.place)):
+            values = await server.variable_values(request.opened, owner.path, variable)
+            text, span = cmake_variables.describe(variable, values), variable.span
+        else:
+            return None
+        return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), request.positions.range(span))
 
     @server.feature(types.TEXT_DOCUMENT_DEFINITION)
     async def definition(params: types.DefinitionParams) -> list[types.Location]:
