@@ -242,7 +242,7 @@ def test_all_safe_fixes_are_made_at_once(tmp_path: Path) -> None:
     edit(tmp_path, steps)
 
 
-def test_hover_describes_a_dependency(tmp_path: Path) -> None:
+def test_hover_describes_a_dependency_and_a_program(tmp_path: Path) -> None:
     async def steps(editor: Editor) -> None:
         request = types.HoverParams(editor.identifier(DRIVER), editor.position(DRIVER, "<depend>rclcpp", 9))
         hover = await editor.client.text_document_hover_async(request)
@@ -252,6 +252,12 @@ def test_hover_describes_a_dependency(tmp_path: Path) -> None:
         assert first.startswith("**rclcpp**: released in jazzy, version ")
         assert declared == "Declared by 'rover_driver' as `<depend>`."
         assert used == "Used by 'rover_driver':"
+        request = types.HoverParams(editor.identifier(LAUNCH), editor.position(LAUNCH, "'mission_server'", 3))
+        hover = await editor.client.text_document_hover_async(request)
+        assert hover is not None
+        assert isinstance(hover.contents, types.MarkupContent)
+        place = "src/rover_mission/CMakeLists.txt:9, installed as `lib/rover_mission/mission_server`"
+        assert f"`mission_server`: defined in {place}" in hover.contents.value
 
     edit(tmp_path, steps)
 

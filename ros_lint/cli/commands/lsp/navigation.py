@@ -179,10 +179,14 @@ def _origin(workspace: Workspace, name: str) -> str:
 
 
 def _thing(workspace: Workspace, target: Target) -> str:
-    spans = [span for package in workspace.called(target.package) for span in _in_package(package, target)]
+    packages = workspace.called(target.package)
+    spans = [span for package in packages for span in _in_package(package, target)]
+    programs = [installed_programs(package) for package in packages] if target.kind == "node" else []
+    installed = any(of_package is not None and target.name in of_package.names for of_package in programs)
+    ending = f", installed as `lib/{target.package}/{target.name}`" if installed else ""
     if spans:
-        return f"defined in {spans[0].path}:{spans[0].line}"
-    return f"not found in '{target.package}'" if workspace.called(target.package) else f"in '{target.package}'"
+        return f"defined in {spans[0].path}:{spans[0].line}{ending}"
+    return f"not found in '{target.package}'" if packages else f"in '{target.package}'"
 
 
 _TAGS = "|".join(tag for tag in DEPENDENCY_KINDS if tag not in ("member_of_group", "group_depend"))
