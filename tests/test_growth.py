@@ -27,7 +27,6 @@ _LITTLE: Final = 20_000
 """Steps: what takes fewer for all elements has no exponent, because fixed costs prevail."""
 
 EXCEPTIONS: Final = {
-    "launch.py: unknown conditions that assign": "each branch joins all names of the function; the steps of a file are limited",
     "launch.py: nested helpers": "the depth of calls is limited, and more than 100 levels are parsed in a second way",
     "launch.py: helpers in a row": "most of the few steps are those of long sources, which are parsed in a second way",
     "launch.py: what a call gets": "each call gets all values of a list; at most 1,000 are followed, and they take steps",
