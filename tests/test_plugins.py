@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,9 @@ from ros_lint.engine import registry
 from ros_lint.engine.plugins import Plugin, problems
 from ros_lint.engine.run import run_rules
 from ros_lint.engine.suppressions import apply_suppressions
+from ros_lint.knowledge.store import KnowledgeError
 from ros_lint.workspace.loader import Loader
+from ros_lint.workspace.model import Package, Workspace
 from ros_lint.workspace.target import TargetDistro
 from tests.packages import manifest_text
 
@@ -118,9 +121,18 @@ def test_a_suggestion_for_a_suppression_has_the_spelling_of_the_code() -> None:
 def test_an_invalid_result_of_a_rule_is_a_failure_of_the_rule(result: Any, error: str) -> None:
     tree = MemoryTree({"a/package.xml": manifest_text("a")})
     workspace = Loader(tree, ("",), TargetDistro("jazzy", "test")).load()
-    for check in ({"package": lambda package, workspace: result}, {"workspace": lambda workspace: result}):
+    for check, package in (({"package": lambda package, workspace: result}, "a"), ({"workspace": lambda workspace: result}, "")):
         issues, (crash,) = run_rules(workspace, [rule("acme-x", "ACME001")._replace(**check)])
-        assert (issues, crash.rule, crash.error) == ((), "acme-x", error)
+        assert (issues, crash.rule, crash.package, crash.error) == ((), "acme-x", package, error)
+
+
+def test_data_that_cannot_be_read_are_no_failure_of_a_rule() -> None:
+    def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
+        raise KnowledgeError("no index")
+
+    workspace = Loader(MemoryTree({"a/package.xml": manifest_text("a")}), ("",), TargetDistro("jazzy", "test")).load()
+    with pytest.raises(KnowledgeError, match="no index"):
+        run_rules(workspace, [rule("acme-x", "ACME001")._replace(package=check)])
 
 
 def install(site: Path, name: str, module: str, body: str = "yield Finding('mine', package.span, package.name)") -> None:

@@ -320,6 +320,9 @@ def test_a_module_of_the_workspace_may_also_be_that_of_a_released_package(
         ("nav2_utils", False, Suggestion("nav2_util", "slip")),
         ("python3-numpyy", True, Suggestion("python3-numpy", "slip")),
         ("pyserial", True, Suggestion("python3-serial", "spelling")),
+        ("ultralytics-pip", False, Suggestion("python3-ultralytics-pip", "spelling")),
+        ("python-serial", False, Suggestion("python3-serial", "spelling")),
+        ("serial-python", False, Suggestion("python3-serial", "spelling")),
     ],
 )
 def test_a_correction_names_the_kind_of_the_mistake(wrong: str, python: bool, expected: Suggestion) -> None:

@@ -70,26 +70,26 @@ def select(
 
     A rule to which the settings assign a severity is selected; a rule with the severity "off" is not.
     """
-    selected: dict[str, Rule] = {}
+    selected: set[str] = set()
     selected_by_name: set[str] = set()
     for selector in (*(("all",) if pedantic else chosen), *added):
-        matching_rules = _matching(rules, selector)
-        selected.update((rule.name, rule) for rule in matching_rules)
+        names = [rule.name for rule in _matching(rules, selector)]
+        selected.update(names)
         if selector not in ("all", "default"):
-            selected_by_name.update(rule.name for rule in matching_rules)
+            selected_by_name.update(names)
     levels: dict[str, Severity] = {}
     declined: set[str] = set()
     for selector, word in (severities or {}).items():
         for rule in _matching(rules, selector):
             if word == "off":
-                selected.pop(rule.name, None)
+                selected.discard(rule.name)
                 declined.add(rule.name)
             else:
-                selected[rule.name] = rule
+                selected.add(rule.name)
                 levels[rule.name] = Severity[word.upper()]
     for selector in ignored:
         for rule in _matching(rules, selector):
-            selected.pop(rule.name, None)
+            selected.discard(rule.name)
             declined.add(rule.name)
     ignores = tuple(
         (pattern, frozenset(rule.name for selector in selectors for rule in _matching(rules, selector)))
