@@ -113,6 +113,22 @@ def test_a_package_of_the_workspace_with_the_name_of_a_shared_folder_is_the_only
     assert world(member("moveit_benchmarks")).by_include("moveit/benchmarks/server.h").names == ("moveit_benchmarks",)
 
 
+@pytest.mark.parametrize(
+    ("header", "provider", "sure"),
+    [
+        ("Eigen/Dense", "eigen", True),
+        ("opencv/cv.h", "libopencv-dev", False),
+        ("tl/expected.hpp", "tl_expected", False),
+        ("tl_expected/expected.hpp", "tl_expected", True),
+    ],
+)
+def test_a_header_that_packages_rarely_declare_is_sure_only_if_its_folder_is_the_package(
+    header: str, provider: str, sure: bool
+) -> None:
+    result = world().by_include(header)
+    assert (result.names[0], result.sure) == (provider, sure)
+
+
 def test_headers_of_the_tool_chain_need_no_package() -> None:
     assert all(world().by_include(header).none_needed for header in ("vector", "sys/stat.h", "cstdint", "unistd.h"))
 
