@@ -15,6 +15,7 @@ from ros_lint.base.tree import MachineTree, MemoryTree
 from ros_lint.engine import registry
 from ros_lint.engine.kept_findings import KeptFindings, _Kept, _KeptFinding
 from ros_lint.engine.run import find_issues
+from ros_lint.engine.shared_answers import SharedAnswers
 from ros_lint.knowledge import Knowledge
 from ros_lint.workspace.cache.file import CacheFile
 from ros_lint.workspace.loader import Loader
@@ -104,6 +105,21 @@ def test_only_places_that_have_read_a_changed_part_are_checked_again(tmp_path: P
     restored = _Run({**_FILES, "a/src/x.cpp": b"\n#include <tf2_ros/buffer.h>\n"}, cache).restored
     assert "a" not in restored
     assert "c" in restored
+
+
+def test_shared_answers_of_each_kind_have_names_that_give_their_values() -> None:
+    loader = _loader(_FILES, again=True)
+    loader.load_all()
+    _checked(loader)
+    assert loader.recorded is not None
+    recorder, handles = loader.recorded
+    shared = SharedAnswers(handles)
+    values = {answer: value for _, answer, value in recorder.answers(handles.workspace.memo)}
+    named = {name: values[answer] for answer, name in shared.named(recorder)}
+    assert {name.split(" ")[2] for name in named} == {"workspace", "package", "name"}
+    assert {name.partition(" package ")[2] for name in named} == {"", "a", "b", "c"}
+    for name, value in named.items():
+        assert shared.value(name) == (value[1] if isinstance(value, tuple) and " package " in name else value), name
 
 
 def test_findings_of_other_options_are_not_used(tmp_path: Path) -> None:
