@@ -87,6 +87,7 @@ INPUTS: Final = {
     "CMake: targets in a ring": _script(
         _cmake(_lines(1_500, "add_library(a%d x.cpp)\ntarget_link_libraries(a%d a%e)") + "target_link_libraries(a1499 a0)")
     ),
+    "CMake: nested conditions": _script(_cmake("if(A)\n" * 20_000 + "message(a)\n" * 20_000 + "endif()\n" * 20_000)),
     "CMake: missing files": _script(_cmake("install(FILES " + " ".join(f"a{n}" for n in range(10_000)) + " DESTINATION x)")),
     "CMake: unknown packages": _script(_cmake(_lines(5_000, "find_package(b%d)"))),
     "CMake: ament_auto_package in loops": _script(

@@ -58,6 +58,10 @@ class UnsetVariable(NamedTuple):
     """Place of the name within ``${name}``."""
 
 
+MOST_BLOCKS = 100
+"""Maximum number of blocks that a :class:`Call` names. The blocks inside of these are left out."""
+
+
 class Call(NamedTuple):
     """A command in a CMake file as it is written, without evaluation of its arguments."""
 
@@ -78,7 +82,7 @@ class Call(NamedTuple):
     breaks: tuple[int, ...]
     """Offsets at which the second and later lines of the command begin."""
     blocks: tuple[str, ...]
-    """Enclosing blocks, outermost first: "if", "foreach", "while", "function", "macro"."""
+    """Enclosing blocks, outermost first: "if", "foreach", "while", "function", "macro". There are at most :data:`MOST_BLOCKS`."""
     test: bool
     """True if an enclosing if() depends on whether tests are built."""
 

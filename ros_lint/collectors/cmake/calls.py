@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from ros_lint.collectors.cmake.syntax import Command, ParsedScript
-from ros_lint.facts.cmake import Call
+from ros_lint.facts.cmake import MOST_BLOCKS, Call
 
 _OPEN: Final = frozenset({"if", "foreach", "while", "function", "macro"})
 _BLOCK_WORDS: Final = frozenset({"else", "elseif", "return", "break", "continue", *(f"end{word}" for word in _OPEN)})
@@ -21,30 +21,23 @@ def collect(path: str, parsed: ParsedScript) -> Iterator[Call]:
 
     ``path`` is the path of the file, relative to the root folder of the workspace.
     """
-    blocks: list[tuple[str, bool]] = []
-    enclosing: tuple[str, ...] = ()
-    test = for_tests = False
+    blocks: list[tuple[str, bool]] = []  # the open blocks, each with whether it or a block around it is for tests
+    test = False
     for command in parsed.commands:
         name = command.name
+        for_tests = bool(blocks) and blocks[-1][1]
         if name in _OPEN:
-            blocks.append((name, name == "if" and _depends_on_tests(command)))
-            enclosing, for_tests = _enclosing(blocks)
+            blocks.append((name, for_tests or (name == "if" and _depends_on_tests(command))))
         elif name[:3] == "end" and blocks and name[3:] in _OPEN:
             blocks.pop()
-            enclosing, for_tests = _enclosing(blocks)
         elif name in ("else", "elseif") and blocks:
-            blocks[-1] = ("if", blocks[-1][1] or (name == "elseif" and _depends_on_tests(command)))
-            enclosing, for_tests = _enclosing(blocks)
+            blocks[-1] = ("if", for_tests or (name == "elseif" and _depends_on_tests(command)))
         elif name == "return":
             test = test or for_tests  # after if(NOT BUILD_TESTING) return() endif(), all commands are for tests
         elif name not in _BLOCK_WORDS:
             _, _, args, start, end, line, column, breaks = command
+            enclosing = tuple([block for block, _ in blocks[:MOST_BLOCKS]])
             yield Call(name, path, args, start, end, line, column, breaks, enclosing, test or for_tests)
-
-
-def _enclosing(blocks: list[tuple[str, bool]]) -> tuple[tuple[str, ...], bool]:
-    """Return the names of the open blocks, outermost first, and whether one of them is ``if(BUILD_TESTING)``."""
-    return tuple([block for block, _ in blocks]), any(for_tests for _, for_tests in blocks)
 
 
 def _depends_on_tests(command: Command) -> bool:
