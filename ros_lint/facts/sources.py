@@ -134,6 +134,8 @@ PARAMETERS_KEY: Final = "ros__parameters"
 """The key in a parameter file above the parameters of a node, and below the name of the node."""
 ANY_NODE: Final = "/**"
 """The name in a parameter file that stands for any node."""
+ANY_PART: Final = "*"
+"""The part of the name of a declared parameter, such as ``pid.*.p``, that stands for any name."""
 
 
 class FileParameter(NamedTuple):
@@ -175,7 +177,7 @@ class DeclaredParameter(NamedTuple):
     """A declaration of a parameter of a node: a call in C++ or Python code, or a key in a file of generate_parameter_library."""
 
     name: str
-    """Name of the parameter."""
+    """Name of the parameter. Parts of it may be :data:`ANY_PART`."""
     type: ParameterType
     """Type that values of the parameter must have; "" if it is unknown, or if the type may change (``dynamic_typing``)."""
     span: Span

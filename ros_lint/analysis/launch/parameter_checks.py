@@ -12,6 +12,7 @@ from ros_lint.base.suggestions import similar_names
 from ros_lint.collectors.launch.final_parameters import full_name, matches
 from ros_lint.collectors.symbolic_text import is_node_renaming, is_plain, is_settled
 from ros_lint.facts.launch import walk_actions
+from ros_lint.facts.sources import ANY_PART
 
 if TYPE_CHECKING:
     from ros_lint.analysis.launch.parameter_files import NodeParameterFile
@@ -114,21 +115,15 @@ def _is_described(name: str, words: frozenset[str]) -> bool:
     tails = [name[at + 1 :] for at, letter in enumerate(name) if letter == "." and "." in name[at + 1 :]]
     if not set(tails).isdisjoint(words):
         return True
-    return any(_fits(tail, word) for word in words if _MAPPED in word for tail in (name, *tails))
-
-
-_MAPPED = "__map_"
-"""What is in front of a part of a name that stands for any name (generate_parameter_library)."""
+    return any(_fits(tail, word) for word in words if ANY_PART in word for tail in (name, *tails))
 
 
 def _fits(name: str, described: str) -> bool:
-    """Return whether a name of a parameter fits a name with mapped parts: ``pid.elbow.p`` fits ``pid.__map_joints.p``."""
-    if _MAPPED not in described:
+    """Return whether a name of a parameter fits a name in which a part may be any name: ``pid.elbow.p`` fits ``pid.*.p``."""
+    if ANY_PART not in described:
         return False
     parts, pattern = name.split("."), described.split(".")
-    return len(parts) == len(pattern) and all(
-        part == wanted or wanted.startswith(_MAPPED) for part, wanted in zip(parts, pattern, strict=True)
-    )
+    return len(parts) == len(pattern) and all(wanted in (part, ANY_PART) for part, wanted in zip(parts, pattern, strict=True))
 
 
 def _is_of_every_node(name: str) -> bool:

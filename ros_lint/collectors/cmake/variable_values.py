@@ -1,13 +1,15 @@
-"""The values of a CMake variable at a place of a script, for the hover text of editors."""
+"""The CMake variable at a place of a script, and its values there, for the hover text of editors."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from typing import Any, Final
+from collections.abc import Iterator, Mapping
+from typing import Any, Final, NamedTuple
 
+from ros_lint.base.text import Span, Text
 from ros_lint.collectors.cmake.commands.ament import run_external_command
 from ros_lint.collectors.cmake.evaluate import run_script
+from ros_lint.collectors.cmake.evaluator.condition_tests import BINARY, UNARY
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
 from ros_lint.collectors.cmake.evaluator.state import Variables
@@ -18,6 +20,49 @@ UNKNOWN: Final = "..."
 
 _PLACES: Final = {TREE: "<workspace>", BINARY: "<build folder>", PREFIX: "<install prefix>"}
 _ATOM: Final = re.compile(rf"/?{ATOM}[\w-]+|{HOLE}")
+_NAME = r"[\w./+-]+"
+_READ = re.compile(rf"\$\{{({_NAME})\}}")
+_ASSIGNED = re.compile(rf"^\s*(?:set|option|unset|list\s*\(\s*[A-Z_]+|string\s*\(\s*APPEND)\s*\(?\s*({_NAME})", re.IGNORECASE)
+_CONDITION = re.compile(r"\s*(?:if|elseif|while)\s*\(", re.IGNORECASE)
+_WORD = re.compile(rf"(?<![\"\w.])([A-Za-z_]{_NAME})")
+_OPERATORS: Final = frozenset({"NOT", "AND", "OR", *UNARY, *BINARY})
+
+
+class Variable(NamedTuple):
+    """The name of a variable in a CMake script."""
+
+    name: str
+    span: Span
+    """The place of the name in the file."""
+    assigned: bool
+    """True if the command at the place sets the variable."""
+
+
+def variable_at(text: Text, line: int, column: int) -> Variable | None:
+    """Return the variable at a place of a script: a reference such as ``${X}``, or the name that ``set(X a)`` sets.
+
+    Lines and columns count from 1. The result is None for other places, and for files that are no CMake scripts.
+    """
+    if not text.path.endswith((".cmake", "CMakeLists.txt")):
+        return None
+    try:
+        words = text.line(line)
+    except IndexError:
+        return None
+    for match, assigned in _names(words):
+        start, end = match.span(1)
+        if start < column <= end + 1:
+            return Variable(match[1], Span(text.path, line, start + 1, line, end + 1), assigned)
+    return None
+
+
+def _names(line: str) -> Iterator[tuple[re.Match[str], bool]]:
+    """Yield the names of variables in a line of a script, each with whether the command sets the variable."""
+    yield from ((match, False) for match in _READ.finditer(line))
+    yield from ((match, True) for match in _ASSIGNED.finditer(line))
+    if condition := _CONDITION.match(line):
+        words = _WORD.finditer(line, condition.end())
+        yield from ((match, False) for match in words if match[1] not in _OPERATORS)
 
 
 def values_at(

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from ros_lint.base.safe_yaml import YamlError, compose
-from ros_lint.facts.sources import PARAMETERS_KEY, DeclaredParameter, NodeCode, ParameterType
+from ros_lint.facts.sources import ANY_PART, PARAMETERS_KEY, DeclaredParameter, NodeCode, ParameterType
 
 if TYPE_CHECKING:
     import yaml
@@ -30,6 +30,8 @@ _TYPES: Final[dict[str, ParameterType]] = {
     "string_array": "string_array",
 }
 _FIXED = re.compile(r"_fixed(?:_\d+)?$")
+_MAPPED: Final = "__map_"
+"""The beginning of a part of a name that may be any name."""
 _NONE: Final = "none"
 """The type of a parameter that is only documented, because other code declares it."""
 _KEYS: Final = frozenset({"default_value", "description", "read_only", "additional_constraints", "validation", "type"})
@@ -46,7 +48,7 @@ class _Leaf(NamedTuple):
 def collect(source: Text) -> NodeCode | None:
     """Return the parameters that a YAML file describes, None if the file has another format.
 
-    A name with ``__map_`` in front of a part stands for any name of that part. ``words`` are all names, ``declared`` are the
+    A part of a name that may be any name (``__map_joints``) becomes ANY_PART. ``words`` are all names, ``declared`` are the
     parameters that the generated code declares.
     """
     text = source.text
@@ -84,7 +86,7 @@ def _leaves(root: yaml.Node | None) -> Iterator[_Leaf]:
             kind = options.get("type")
             if not options.keys() <= _KEYS or kind is None or not isinstance(kind.value, str):
                 raise _OtherFormatError
-            yield _Leaf(name, kind.value, key)
+            yield _Leaf(".".join([ANY_PART if part.startswith(_MAPPED) else part for part in name.split(".")]), kind.value, key)
             continue
         # As in parse_dict(), keys that are no mappings are ignored below a key that has parameters.
         waiting += [(k, v, f"{name}.{k.value}") for k, v in reversed(inner) if _is_mapping(v)]

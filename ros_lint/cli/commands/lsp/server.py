@@ -15,10 +15,10 @@ from pygls.uris import to_fs_path
 from ros_lint import __version__
 from ros_lint.base.text import Span, to_bytes
 from ros_lint.cli.commands.lsp import cmake_variables, findings, navigation
-from ros_lint.cli.commands.lsp.cmake_variables import Variable
 from ros_lint.cli.commands.lsp.positions import ENCODINGS, Place, Positions
 from ros_lint.cli.commands.lsp.progress import LoadingProgress
 from ros_lint.cli.commands.lsp.project import Project, Snapshot
+from ros_lint.collectors.cmake.variable_values import Variable, variable_at
 from ros_lint.errors import UserError
 
 T = TypeVar("T")
@@ -293,7 +293,7 @@ def _add_navigation(server: RosLintServer) -> None:
         source = request.snapshot.text(request.path)
         if request.target is not None:
             text, span = navigation.describe(request.snapshot, request.target, owner), request.target.span
-        elif owner and source and (variable := cmake_variables.variable_at(source, request.place)):
+        elif owner and source and (variable := variable_at(source, *request.place)):
             values = await server.variable_values(request.opened, owner.path, variable)
             text, span = cmake_variables.describe(variable, values), variable.span
         else:
