@@ -9,7 +9,7 @@ from typing import Any, Final, NamedTuple
 from ros_lint.base.text import Span, Text
 from ros_lint.collectors.cmake.commands.ament import run_external_command
 from ros_lint.collectors.cmake.evaluate import run_script
-from ros_lint.collectors.cmake.evaluator.condition_tests import BINARY, UNARY
+from ros_lint.collectors.cmake.evaluator import condition_tests
 from ros_lint.collectors.cmake.evaluator.run import Run
 from ros_lint.collectors.cmake.evaluator.sources import Helper, Sources
 from ros_lint.collectors.cmake.evaluator.state import Variables
@@ -25,7 +25,7 @@ _READ = re.compile(rf"\$\{{({_NAME})\}}")
 _ASSIGNED = re.compile(rf"^\s*(?:set|option|unset|list\s*\(\s*[A-Z_]+|string\s*\(\s*APPEND)\s*\(?\s*({_NAME})", re.IGNORECASE)
 _CONDITION = re.compile(r"\s*(?:if|elseif|while)\s*\(", re.IGNORECASE)
 _WORD = re.compile(rf"(?<![\"\w.])([A-Za-z_]{_NAME})")
-_OPERATORS: Final = frozenset({"NOT", "AND", "OR", *UNARY, *BINARY})
+_OPERATORS: Final = frozenset({"NOT", "AND", "OR", *condition_tests.UNARY, *condition_tests.BINARY})
 
 
 class Variable(NamedTuple):
