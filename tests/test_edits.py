@@ -2,6 +2,7 @@
 
 import os
 from pathlib import Path
+from random import Random
 
 import pytest
 
@@ -86,6 +87,32 @@ def test_an_insertion_inside_of_replaced_text_is_an_overlap() -> None:
     assert edits.choose([insertion, deletion]) == (insertion,)
     elsewhere = Fix("", tuple(edit._replace(span=edit.span._replace(path="g")) for edit in insertion.edits))
     assert edits.choose([deletion, elsewhere]) == (deletion, elsewhere)
+
+
+def _overlap(first: Edit, second: Edit) -> bool:
+    left, right = first.span, second.span
+    return left.path == right.path and left[1:3] < right[3:] and right[1:3] < left[3:]
+
+
+@pytest.mark.parametrize("seed", range(300))
+def test_the_chosen_fixes_are_those_that_overlap_no_earlier_one(seed: int) -> None:
+    random = Random(seed)
+    fixes: list[Fix] = []
+    for _ in range(12):
+        own: list[Edit] = []
+        for _ in range(random.randrange(1, 4)):
+            start, end = sorted((random.randrange(1, 4), random.randrange(1, 9)) for _ in range(2))
+            end = random.choice((start, end))
+            edit = Edit(Span(random.choice("fg"), *start, *end), random.choice("xy"))
+            if not any(_overlap(edit, other) for other in own):
+                own.append(edit)
+        fixes.append(Fix("", tuple(own)))
+    expected: list[Fix] = []
+    for fix in fixes:
+        taken = [edit for other in expected for edit in other.edits]
+        if not any(_overlap(edit, other) for edit in fix.edits if edit not in taken for other in taken):
+            expected.append(fix)
+    assert edits.choose(fixes) == tuple(expected)
 
 
 def test_an_edit_that_two_fixes_share_is_no_overlap() -> None:

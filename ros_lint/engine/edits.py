@@ -6,15 +6,17 @@ import os
 import re
 import tempfile
 import time
+from bisect import bisect_left, bisect_right, insort
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import groupby
+from typing import TypeAlias
 
 from ros_lint.analysis.finding import Fix
 from ros_lint.base import files
 from ros_lint.base.edit import Edit
-from ros_lint.base.text import Text, read
+from ros_lint.base.text import Span, Text, read
 from ros_lint.base.tree import Tree
 
 
@@ -35,14 +37,46 @@ def choose(fixes: Iterable[Fix]) -> tuple[Fix, ...]:
     A fix whose edits overlap those of an earlier returned fix is left out.
     """
     chosen: list[Fix] = []
-    chosen_edits: list[Edit] = []
+    chosen_edits: set[Edit] = set()
+    places: dict[str, _Places] = {}
     for fix in fixes:
-        new = [edit for edit in fix.edits if edit not in chosen_edits]
-        if any(_collide(edit, chosen_fix) for edit in new for chosen_fix in chosen_edits):
+        new = [edit.span for edit in fix.edits if edit not in chosen_edits]
+        if any(span.path in places and places[span.path].collides(span) for span in new):
             continue
         chosen.append(fix)
-        chosen_edits += new
+        chosen_edits.update(fix.edits)
+        for span in new:
+            places.setdefault(span.path, _Places()).add(span)
     return tuple(chosen)
+
+
+_Position: TypeAlias = tuple[int, int]
+"""A line and a column."""
+
+
+class _Places:
+    """The places of edits in a file that do not overlap."""
+
+    def __init__(self) -> None:
+        self._points: list[_Position] = []
+        """The places of insertions, sorted."""
+        self._ranges: list[tuple[_Position, _Position]] = []
+        """The start and end of each replaced text, sorted."""
+
+    def add(self, span: Span) -> None:
+        start, end = span[1:3], span[3:]
+        if start == end:
+            insort(self._points, start)
+        else:
+            insort(self._ranges, (start, end))
+
+    def collides(self, span: Span) -> bool:
+        """Return whether a place overlaps one of these places. An insertion at the start or end of a range does not."""
+        start, end = span[1:3], span[3:]
+        before = bisect_left(self._ranges, (end,))
+        if before and self._ranges[before - 1][1] > start:
+            return True
+        return start < end and bisect_right(self._points, start) < bisect_left(self._points, end)
 
 
 def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
@@ -51,11 +85,8 @@ def apply(fixes: Iterable[Fix], texts: Callable[[str], Text]) -> dict[str, str]:
     ``texts`` returns the text of a file by path. Raises EditError if a file has fewer lines than an edit assumes.
     """
     edits: dict[str, list[Edit]] = {}
-    for fix in fixes:
-        for edit in fix.edits:
-            in_file = edits.setdefault(edit.span.path, [])
-            if edit not in in_file:
-                in_file.append(edit)
+    for edit in dict.fromkeys(edit for fix in fixes for edit in fix.edits):
+        edits.setdefault(edit.span.path, []).append(edit)
     return {path: _apply_to(texts(path), in_file) for path, in_file in sorted(edits.items())}
 
 
@@ -286,11 +317,6 @@ def _joined(edits: Sequence[Edit]) -> str:
         result += text
         kind = edit.kind
     return result
-
-
-def _collide(first: Edit, second: Edit) -> bool:
-    left, right = first.span, second.span
-    return left.path == right.path and left[1:3] < right[3:] and right[1:3] < left[3:]
 
 
 def _ends_with_blank_line(text: str) -> bool:

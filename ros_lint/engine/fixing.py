@@ -114,9 +114,9 @@ class _Round:
         Otherwise the group is halved.
         """
         issues = [issue for issue in self._trials.fixable(self.changed) if issue.identity in identities]  # with current spans
-        fixes = edits.choose(issue.finding.fix for issue in issues if issue.finding.fix)
+        fixes = frozenset(edits.choose(issue.finding.fix for issue in issues if issue.finding.fix))
         group = [issue for issue in issues if issue.finding.fix in fixes]
-        self._postpone(issue for issue in issues if issue not in group)
+        self._postpone(issue for issue in issues if issue.finding.fix not in fixes)
         regressions = self._trials.regressions(self.changed, group)
         suspects = _suspects(group, regressions)
         unsuspected = [issue for issue in group if issue not in suspects]
