@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
+from functools import lru_cache
 from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -129,14 +131,14 @@ class _File:
     def _line(self, number: int) -> Iterator[str]:
         """Yield the rows for a source line: the line, and a row for each place that begins or ends in it."""
         line = self._source.line(number)
-        shown, widths = cells(line[:_MOST_CHARACTERS], self._style)
+        shown, columns = _columns(line[:_MOST_CHARACTERS], self._style)
         beginning = [place for place in self._multi_line if place.line == number and not self._opens(place)]
         single_line = [place for place in self._single_line if place.line == number]
         ending = [place for place in self._multi_line if place.end_line == number]
         marked = [*beginning, *single_line, *ending]
         side = self._side(number)
-        if (len(line) <= _MOST_CHARACTERS and sum(widths) <= self._width) or not marked:
-            views = [(_view(shown, widths, 0, 0, self._width), marked)]
+        if (len(line) <= _MOST_CHARACTERS and columns[-1] <= self._width) or not marked:
+            views = [(_view(shown, columns, 0, 0, self._width), marked)]
         else:
             # A line that is too long is shown once for each place in it.
             views = [(self._around(line, *_extent(place, number)), [place]) for place in marked]
@@ -147,9 +149,11 @@ class _File:
 
     def _around(self, line: str, start: int, end: int) -> _View:
         """Return the part of a long line to show around the range of characters from ``start`` to ``end``."""
-        skipped = max(start - _MOST_CHARACTERS // 2, 0) if len(line) > _MOST_CHARACTERS else 0
-        shown, widths = cells(line[skipped : skipped + _MOST_CHARACTERS], self._style)
-        view = _view(shown, widths, start - skipped, min(end - skipped, len(widths)), self._width)
+        half = _MOST_CHARACTERS // 2
+        # Places that are close to each other share a part of the line, which is converted to columns once.
+        skipped = max(start - half // 2, 0) // half * half if len(line) > _MOST_CHARACTERS else 0
+        shown, columns = _columns(line[skipped : skipped + _MOST_CHARACTERS], self._style)
+        view = _view(shown, columns, start - skipped, min(end - skipped, len(shown)), self._width)
         return view._replace(skipped=skipped)
 
     def _underline(self, place: _MarkRange, number: int, view: _View) -> str:
@@ -191,32 +195,41 @@ class _View(NamedTuple):
     """The part of a source line that is shown."""
 
     text: str
-    columns: tuple[int, ...]
-    """For each character of the line and for its end, the column in the shown text, from 0."""
+    columns: Sequence[int]
+    """For each character of the line and for its end, the column in the line, from 0."""
+    offset: int
+    """What to add to a column in the line for the column in the shown text."""
+    end: int
+    """The column in the shown text where the part of the line ends."""
     skipped: int = 0
     """Number of characters at the start of the line that ``columns`` has no entries for."""
 
     def column(self, index: int) -> int:
         """Return the column in the shown text of the character at ``index`` of the line."""
-        return self.columns[min(max(index - self.skipped, 0), len(self.columns) - 1)]
+        column = self.columns[min(max(index - self.skipped, 0), len(self.columns) - 1)]
+        return min(max(column + self.offset, 0), self.end)
 
 
-def _view(shown: Sequence[str], widths: Sequence[int], start: int, end: int, width: int) -> _View:
+@lru_cache(maxsize=4)
+def _columns(line: str, style: Style) -> tuple[Sequence[str], Sequence[int]]:
+    """Return the text to show for each character of a line, and the column where each character and the line's end are shown."""
+    shown, widths = cells(line, style)
+    return shown, [0, *accumulate(widths)]
+
+
+def _view(shown: Sequence[str], columns: Sequence[int], start: int, end: int, width: int) -> _View:
     """Return the part of a line that contains the start of the range ``start`` to ``end`` and fits into ``width`` columns."""
-    at = [0, *accumulate(widths)]
-    if at[-1] <= width:
-        return _View("".join(shown), tuple(at))
+    if columns[-1] <= width:
+        return _View("".join(shown), columns, 0, columns[-1])
     first = 0
-    if at[end] > width - len(_ELLIPSIS):
-        while at[start] - at[first] > _CONTEXT or (first < start and widths[first] == 0):
-            first += 1
+    if columns[end] > width - len(_ELLIPSIS):
+        first = bisect_left(columns, columns[start] - _CONTEXT)
+        first = min(bisect_right(columns, columns[first]) - 1, start)  # no combining characters without their letter
     lead = _ELLIPSIS if first else ""
-    last = first
-    while last < len(widths) and at[last + 1] - at[first] + len(lead) + len(_ELLIPSIS) <= width:
-        last += 1
-    offset = len(lead) - at[first]
-    columns = tuple(min(max(column + offset, 0), at[last] + offset) for column in at)
-    return _View(f"{lead}{''.join(shown[first:last])}{_ELLIPSIS if last < len(widths) else ''}", columns)
+    offset = len(lead) - columns[first]
+    last = max(first, bisect_right(columns, width - len(_ELLIPSIS) - offset) - 1)
+    tail = _ELLIPSIS if last < len(shown) else ""
+    return _View(f"{lead}{''.join(shown[first:last])}{tail}", columns, offset, columns[last] + offset)
 
 
 def _extent(place: _MarkRange, number: int) -> tuple[int, int]:
