@@ -60,7 +60,7 @@ def _install_files(run: Run, args: list[str], program: bool) -> None:
     rename = parts.get("RENAME", [""])[0] if parts.get("RENAME") else ""
     if "PERMISSIONS" in parts:
         program = any(word.endswith("_EXECUTE") for word in parts["PERMISSIONS"])
-    for value in parts[""]:
+    for value in dict.fromkeys(parts[""]):
         plain, certain = strip_mark(value)
         name = rename or posixpath.basename(plain)
         if destination is None or "$<" in name or not is_fixed(name):

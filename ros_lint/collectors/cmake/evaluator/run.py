@@ -102,6 +102,8 @@ class Run(State):
 
         self._indexed: tuple[Command, Mapping[str, Sequence[Argument]]] | None = None
         """The command with many arguments that was indexed last, and its arguments by their text."""
+        self._evaluated: tuple[Command, int, Mapping[str, Argument]] | None = None
+        """The command whose values were indexed last, the steps left at that time, and its arguments by element."""
 
     # --- variables
 
@@ -320,11 +322,20 @@ class Run(State):
         assert command is not None
         if value in self.literal_places:
             return _inside(*self.literal_places[value])
-        if value and frame is self.frames[-1]:
-            for text, kind, start, end in command.args:
-                if kind in (UNQUOTED, QUOTED) and value in split(self.evaluate(text)):
-                    return command.span(frame.path, start, end)
+        if value and frame is self.frames[-1] and (found := self._arguments_by_element(command).get(value)):
+            return command.span(frame.path, found[2], found[3])
         return command.place(frame.path)
+
+    def _arguments_by_element(self, command: Command) -> Mapping[str, Argument]:
+        """Return the arguments of the current command by the elements of their values; the first argument of each element."""
+        if self._evaluated is None or self._evaluated[0] is not command or self._evaluated[1] != self.budget.steps:
+            by_element: dict[str, Argument] = {}
+            for argument in command.args:
+                if argument[1] in (UNQUOTED, QUOTED):
+                    for element in split(self.evaluate(argument[0])):
+                        by_element.setdefault(element, argument)
+            self._evaluated = command, self.budget.steps, by_element
+        return self._evaluated[2]
 
     def _arguments_with(self, text: str, command: Command) -> Iterable[Argument]:
         """Return the arguments of a command that may have the text ``text``. A long command is indexed for this."""
