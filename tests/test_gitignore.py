@@ -44,6 +44,12 @@ def test_patterns_match_the_same_paths_as_in_git(tmp_path: Path) -> None:
         assert {path for path in paths if is_ignored(given, path)} == set(filter(None, output.split("\0"))), files
 
 
+def test_the_last_of_equal_lines_counts() -> None:
+    assert [pattern.glob for pattern in patterns("", "a\nb/c\na\n")] == ["b/c", "**/a"]
+    assert is_ignored(tuple(patterns("", "a\n!a\na")), "a")
+    assert not is_ignored(tuple(patterns("", "!a\na\n!a")), "a")
+
+
 def test_ignore_files_are_read_above_packages_and_in_them() -> None:
     tree = MemoryTree(
         {".gitignore": "*.so\n", "src/.gitignore": "!keep.so\n", "src/arm/.gitignore": "/made\n", "x/.gitignore": "*\n"}

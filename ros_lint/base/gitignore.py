@@ -26,8 +26,11 @@ class Pattern(NamedTuple):
 
 
 def patterns(folder: str, text: str) -> Iterator[Pattern]:
-    """Yield the patterns of a ``.gitignore`` file, in order. ``folder`` is its folder and ``text`` its contents."""
-    for raw_line in text.split("\n"):
+    """Yield the patterns of a ``.gitignore`` file, in order. ``folder`` is its folder and ``text`` its contents.
+
+    Of equal lines, only the last one counts, because the last matching pattern decides.
+    """
+    for raw_line in reversed(dict.fromkeys(reversed(text.split("\n")))):
         line = raw_line.removesuffix("\r")
         if line.endswith(" "):
             line = _trimmed(line)
