@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from ros_lint.base.tree import DiskTree, MemoryTree, OverlayTree
+from ros_lint.base.tree import DiskTree, MachineTree, MemoryTree, OverlayTree
 
 FILES = {"a/package.xml": "<package/>", "a/src/x.cpp": b"\xff", "b.txt": "", "a.b/c": "c"}
 
@@ -33,6 +33,14 @@ def test_large_files_are_read_completely(tmp_path: Path) -> None:
     for size in (0, 1, 65535, 65536, 65537, 131072, 3_000_000):
         (tmp_path / "f").write_bytes(bytes(range(256)) * (size // 256) + b"x" * (size % 256))
         assert DiskTree(str(tmp_path)).read("f") == (tmp_path / "f").read_bytes()
+
+
+@pytest.mark.parametrize("path", ["a\0b", "\ud800"])
+@pytest.mark.parametrize("tree", [DiskTree("/"), MachineTree()])
+def test_a_path_that_no_file_can_have_does_not_exist(tree: DiskTree, path: str) -> None:
+    for use in (tree.list, tree.read, tree.stamp, tree.identity):
+        with pytest.raises(FileNotFoundError):
+            use(path)
 
 
 def test_links_are_followed_and_broken_links_are_of_another_kind(tmp_path: Path) -> None:

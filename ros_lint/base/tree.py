@@ -139,8 +139,11 @@ class DiskTree:
         self._inside = tuple(inside)
 
     def place(self, path: str) -> str:
-        """Return the path for the operating system: the base of the tree joined with ``path``."""
-        return f"{self._base}/{path}" if path else self._base
+        """Return the path for the operating system: the base of the tree joined with ``path``.
+
+        Raises FileNotFoundError if no file can have the path.
+        """
+        return _possible(f"{self._base}/{path}" if path else self._base)
 
     def list(self, path: str) -> list[Entry]:
         result = []
@@ -184,10 +187,22 @@ class DiskTree:
         return Stamp(status.st_mtime_ns, status.st_size, status.st_mode & 0o777, status.st_ctime_ns, inode)
 
     def identity(self, path: str) -> str:
-        return os.path.realpath(os.path.join(self._base, path))
+        return os.path.realpath(_possible(os.path.join(self._base, path)))
 
     def is_untracked(self, path: str) -> bool:  # noqa: ARG002  (of a Tree)
         return False
+
+
+def _possible(path: str) -> str:
+    """Return ``path``. Raises FileNotFoundError if it contains NUL, or a character that the file system cannot represent."""
+    try:
+        if path.isascii() or os.fsencode(path):
+            possible = "\0" not in path
+    except UnicodeEncodeError:
+        possible = False
+    if not possible:
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
+    return path
 
 
 _INODE_BITS = (1 << 63) - 1
@@ -206,10 +221,10 @@ class MachineTree(DiskTree):
         super().__init__("")
 
     def place(self, path: str) -> str:
-        return path
+        return _possible(path)
 
     def read(self, path: str) -> bytes:
-        return files.read(path)
+        return files.read(self.place(path))
 
 
 class MemoryTree:
