@@ -93,3 +93,9 @@ def test_dashes_and_capitals_are_ignored() -> None:
 )
 def test_near_names_exclude_unrelated_words(name: str, names: list[str], wanted: list[str]) -> None:
     assert near_names(name, names, 3, 0.6) == wanted
+
+
+def test_a_name_of_several_lines_resembles_no_other() -> None:
+    spelling = Spelling(["a\nb", "cv_bridge"])
+    assert spelling.same("cv-bridge") == ("cv_bridge",)
+    assert spelling.near("cv_bridges") == ("cv_bridge",)

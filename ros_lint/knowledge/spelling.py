@@ -33,7 +33,7 @@ class Spelling:
     """A set of existing names, for look-ups of names that are similar to an unknown name."""
 
     def __init__(self, names: Iterable[str]) -> None:
-        self._names = sorted(set(names))
+        self._names = sorted({name for name in names if "\n" not in name})
         self._by_word: dict[str, list[str]] = {}
 
     def same(self, name: str) -> tuple[str, ...]:
