@@ -92,7 +92,8 @@ class Rosdep(Entries[RosdepKey]):
     def installing(self, name: str) -> tuple[str, ...]:
         """Return the rosdep keys that install the apt or pip package ``name``, sorted."""
         if name not in self._installing_keys:
-            self._installing_keys[name] = self._installing(name) or self._installing(_pip_name(name))
+            spellings = dict.fromkeys((name, _pip_name(name)))
+            self._installing_keys[name] = next(filter(None, map(self._installing, spellings)), ())
         return self._installing_keys[name]
 
     def _installing(self, name: str) -> tuple[str, ...]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from ros_lint.analysis.finding import Consequence
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
 from ros_lint.facts.manifest import Depend, Role
-from ros_lint.facts.sources import Use
+from ros_lint.facts.sources import Use, Via
 from ros_lint.workspace.model import Declared, Package, Workspace
 
 _BUILD_TYPES = frozenset({"ros.ament_cmake", "ros.ament_python", "ros.cmake"})
@@ -25,21 +25,13 @@ class UnresolvedDependency(NamedTuple):
     """All tags with the name."""
     matching_uses: tuple[Use, ...]
     """Uses of the declared name or of a module in it (``name.module``)."""
+    runs_python: bool
+    """True if only Python code may need the name at run time, according to its tags and its uses."""
 
     @property
     def name(self) -> str:
         """The declared name."""
         return self.declared.depend.name
-
-    @property
-    def runs_python(self) -> bool:
-        """True if only Python code may need the name at run time, according to its tags and its uses."""
-        if self.package.builds_with == "ament_python":
-            return True
-        vias = {use.via for use in self.matching_uses}
-        if not self.package.declares(self.name) & (Role.BUILD | Role.EXPORT | Role.TOOL):
-            return not vias or "import" in vias
-        return vias == {"import"}
 
 
 @cached_by_workspace
@@ -73,8 +65,18 @@ def unresolved(name: str, packages: Iterable[Package]) -> Iterator[UnresolvedDep
         tags = package.tags(name)
         first = next((declared for declared in tags if declared.certain), None)
         if first is not None:
-            uses = [use for use in package.uses if use.name.startswith(name) and use.name.partition(".")[0] == name]
-            yield UnresolvedDependency(package, first, tuple([declared.depend for declared in tags]), tuple(uses))
+            uses = tuple([use for use in package.uses if use.name.startswith(name) and use.name.partition(".")[0] == name])
+            runs_python = _runs_python(package, name, {use.via for use in uses})
+            yield UnresolvedDependency(package, first, tuple([declared.depend for declared in tags]), uses, runs_python)
+
+
+def _runs_python(package: Package, name: str, vias: Collection[Via]) -> bool:
+    """Return whether only Python code may need a declared name at run time. ``vias`` are the kinds of its uses."""
+    if package.builds_with == "ament_python":
+        return True
+    if not package.declares(name) & (Role.BUILD | Role.EXPORT | Role.TOOL):
+        return not vias or "import" in vias
+    return vias == {"import"}
 
 
 def resembles_ament_package(name: str, workspace: Workspace) -> bool:
