@@ -16,11 +16,11 @@ import os
 import resource
 import sys
 import tempfile
-from collections.abc import Callable, Iterable
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import redirect_stdout, suppress
 from pathlib import Path
 
-from bench.ladders import LADDERS, Files
+from bench.ladders import LADDERS, OPTIONS, Files
 from ros_lint.cli.main import main as start
 
 WANTED = 1.2
@@ -31,6 +31,8 @@ STEPS = 3
 """How often the number of elements is doubled."""
 MOST = {"launch.py": 2_000, "setup.py: unknown": 4_000}
 """The greatest number of elements where it is less than the default, because longer files are not read."""
+AS_JSON = ("--format", "json")
+"""The options of a check if the ladder has none of its own."""
 SHORT = 0.05
 """Seconds: shorter times are noise, so a ladder that stays below has no exponent."""
 
@@ -42,14 +44,14 @@ def write(files: Files, root: Path) -> None:
         path.write_text(text)
 
 
-def check(folder: str) -> None:
+def check(folder: str, options: Sequence[str] = AS_JSON) -> None:
     """Check a workspace in this process, and discard the report."""
-    options = ["--no-cache", "--isolated", "--jobs", "1", "--distro", "jazzy", "--format", "json", "--fail-on", "never"]
-    with suppress(SystemExit):
-        start([folder, *options, "--output", os.devnull])
+    usual = ["--no-cache", "--isolated", "--jobs", "1", "--distro", "jazzy", "--fail-on", "never"]
+    with suppress(SystemExit), open(os.devnull, "w", encoding="utf-8") as nowhere, redirect_stdout(nowhere):
+        start([folder, *usual, *options])
 
 
-def cost(files: Files) -> tuple[float, float]:
+def cost(files: Files, options: Sequence[str]) -> tuple[float, float]:
     """Return the CPU seconds and the peak memory in MB of a check. The time is infinite if the check takes too long or fails."""
     with tempfile.TemporaryDirectory() as folder:
         write(files, Path(folder))
@@ -57,18 +59,18 @@ def cost(files: Files) -> tuple[float, float]:
         if child == 0:
             gc.disable()  # as in a run from the command line
             resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-            check(folder)
+            check(folder, options)
             os._exit(0)
         _, status, used = os.wait4(child, 0)
     return (used.ru_utime + used.ru_stime if status == 0 else math.inf), used.ru_maxrss / 1024
 
 
-def ladder(build: Callable[[int], Files], sizes: Iterable[int]) -> tuple[list[float], float]:
+def ladder(build: Callable[[int], Files], sizes: Iterable[int], options: Sequence[str]) -> tuple[list[float], float]:
     """Return the seconds for each size beyond those of a single element, and the largest memory."""
-    floor_seconds, memory = cost(build(1))
+    floor_seconds, memory = cost(build(1), options)
     seconds: list[float] = []
     for size in sizes:
-        taken, needed = cost(build(size))
+        taken, needed = cost(build(size), options)
         seconds.append(taken - floor_seconds)
         memory = max(memory, needed)
         if math.isinf(taken):
@@ -110,7 +112,7 @@ def main() -> int:
             continue
         most = min(options.most, next((size for start, size in MOST.items() if name.startswith(start)), options.most))
         sizes = [most >> step for step in range(STEPS, -1, -1)]
-        seconds, memory = ladder(build, sizes)
+        seconds, memory = ladder(build, sizes, OPTIONS.get(name, AS_JSON))
         slope = exponent(seconds)
         slow += slope is not None and slope > WANTED
         cells = ", ".join(f"{size:,}: {taken:.2f}" for size, taken in zip(sizes, seconds, strict=False))

@@ -231,6 +231,9 @@ LADDERS: dict[str, Callable[[int], Files]] = {
         "add_library(b src/b.cpp)\n" + f"target_link_libraries(b {words(n, 'c%d')})\n", files={"src/b.cpp": ""}
     ),
     "CMake: installed files": lambda n: cmake(f"install(FILES {words(n, 'c%d.yaml')} DESTINATION share/a)\n"),
+    "CMake: installed files of a list": lambda n: cmake(
+        f'set(a "{words(n, "c%d.yaml", ";")}")\ninstall(FILES ${{a}} DESTINATION share/a)\n'
+    ),
     "CMake: install commands": lambda n: cmake(lines(n, "install(FILES c%d.yaml DESTINATION share/a)")),
     "CMake: installed folders": lambda n: cmake(lines(n, "install(DIRECTORY c%d DESTINATION share/a)")),
     "CMake: functions": lambda n: cmake(lines(n, "function(f%d)", "  set(a b)", "endfunction()", "f%d()")),
@@ -331,6 +334,8 @@ LADDERS: dict[str, Callable[[int], Files]] = {
     "package.xml: unknown depends": lambda n: cmake("", lines(n, "  <depend>b%d</depend>")),
     "package.xml: the same depends": lambda n: cmake("", lines(n, "  <depend>b</depend>")),
     "package.xml: unused depends": lambda n: cmake("", lines(n, "  <depend>rclcpp</depend>")),
+    "package.xml: fixes of the same depends": lambda n: cmake("", lines(n, "  <depend>rclcpp</depend>")),
+    "package.xml: unknown attributes, as text": lambda n: cmake("", "  <depend " + words(n, "b%d=''") + ">rclcpp</depend>\n"),
     "package.xml: groups": lambda n: cmake("", lines(n, "  <member_of_group>b%d</member_of_group>")),
     "package.xml: authors": lambda n: cmake("", lines(n, '  <author email="a@b.org">B%d</author>')),
     "package.xml: attributes": lambda n: cmake("", f"  <depend {words(n, 'b%d=' + chr(34) * 2)}>b</depend>\n"),
@@ -425,3 +430,9 @@ LADDERS: dict[str, Callable[[int], Files]] = {
     "files": lambda n: {**cmake("install(DIRECTORY c DESTINATION share/a)\n"), **{f"c/b{i}.yaml": "" for i in range(n // 10)}},
 }
 """Workspaces by name, as functions of the number of elements."""
+
+OPTIONS: Mapping[str, tuple[str, ...]] = {
+    "package.xml: fixes of the same depends": ("--diff", "--unsafe-fixes"),
+    "package.xml: unknown attributes, as text": ("--format", "text"),
+}
+"""The options of the ladders that are not checked with a report in JSON."""

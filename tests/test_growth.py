@@ -17,7 +17,7 @@ from typing import Any, Final
 import pytest
 
 from bench import growth
-from bench.ladders import LADDERS
+from bench.ladders import LADDERS, OPTIONS
 
 pytestmark = pytest.mark.slow
 
@@ -53,13 +53,14 @@ def _steps(name: str, count: int, folder: Path) -> int:
         steps += 1
         return trace
 
+    options = OPTIONS.get(name, growth.AS_JSON)
     growth.write(LADDERS[name](count), folder)
     for _ in range(2):
-        growth.check(str(folder))  # imports and caches are not counted
+        growth.check(str(folder), options)  # imports and caches are not counted
     before = sys.gettrace()
     sys.settrace(trace)
     try:
-        growth.check(str(folder))
+        growth.check(str(folder), options)
     finally:
         sys.settrace(before)
     return steps
@@ -81,4 +82,4 @@ def test_steps_grow_linearly(tmp_path: Path, name: str) -> None:
 
 
 def test_exceptions_name_ladders() -> None:
-    assert EXCEPTIONS.keys() <= LADDERS.keys()
+    assert EXCEPTIONS.keys() | OPTIONS.keys() <= LADDERS.keys()
