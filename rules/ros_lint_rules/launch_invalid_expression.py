@@ -31,9 +31,9 @@ from ros_lint.api import Confidence, Finding, Package, Rule, Severity, Workspace
 def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
     for launch_file in launch.package_launch_files(package):
         above = launch.include_tree(workspace).above(launch_file.file)
-        passed = {name for configurations in above for name in configurations.set_or_passed}
+        passed = {name for configurations in above or () for name in configurations.set_or_passed}
         for failing in launch.failing_expressions(launch_file.file):
-            sure = not (workspace.unread() or failing.argument in passed or failing.conditional)
+            sure = not (workspace.unread() or above is None or failing.argument in passed or failing.conditional)
             yield _finding(failing, Confidence.HIGH if sure else Confidence.MEDIUM)
 
 

@@ -51,7 +51,8 @@ Reported with medium confidence:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from ros_lint.api import (
     Confidence,
@@ -65,6 +66,7 @@ from ros_lint.api import (
     Severity,
     Span,
     Workspace,
+    cached_by_name,
     cached_by_package,
     files,
     first_related,
@@ -347,23 +349,45 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
     if not owners:
         known = workspace.world.launch_files(owner)
         return known.possible if kind == "include" and known.ask(path) == "missing" else None
-    share = f"share/{owner}/"
-    all_names: set[str] = set()
     for package in owners:
         if package.script is None or package.builds_with not in ("ament_cmake", "ament_python"):
             return None
-        if package.hidden(Facet.SHARE, f"{share}{path}"):
+        if package.hidden(Facet.SHARE, f"share/{owner}/{path}"):
             return None
-        all_names.update(p.path[len(share) :] for p in package.script.products.installs if p.path.startswith(share))
         # Another rule reports a file of the sources that is not installed, also if the folders differ.
-        installed = package.script.products.installed
-        if any((file == path or file.endswith(f"/{path}")) and file not in installed for file in package.files):
+        named = _not_installed(package, workspace).get(path.rpartition("/")[2], ())
+        if any(file == path or file.endswith(f"/{path}") for file in named):
             return None
         if any(path.startswith(f"{folder}/") for folder in (*package.unvisited_folders, *package.nested)):
             return None
-    if path in all_names or any(name.startswith(f"{path}/") for name in all_names):
-        return None
-    return tuple(sorted(all_names))
+    installed = _installed(workspace, owner)
+    same, below = (bisect_left(installed, start) for start in (path, f"{path}/"))
+    exists = path in installed[same : same + 1] or any(file.startswith(f"{path}/") for file in installed[below : below + 1])
+    return None if exists else installed
+
+
+@cached_by_name
+def _installed(workspace: Workspace, owner: str) -> tuple[str, ...]:
+    """Return the files in the share directory of the packages with the name ``owner``, sorted."""
+    share = f"share/{owner}/"
+    shared = {
+        installed.path[len(share) :]
+        for package in workspace.by_name.get(owner, ())
+        for installed in package.built.products.installs
+        if installed.path.startswith(share)
+    }
+    return tuple(sorted(shared))
+
+
+@cached_by_package
+def _not_installed(package: Package, _workspace: Workspace) -> Mapping[str, Sequence[str]]:
+    """Return the files of a package that it does not install, by the last component of their paths."""
+    installed = package.built.products.installed
+    result: dict[str, list[str]] = {}
+    for file in package.files:
+        if file not in installed:
+            result.setdefault(file.rpartition("/")[2], []).append(file)
+    return result
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:

@@ -49,8 +49,9 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         return
     for launch_file in launch.package_launch_files(package):
         above = launch.include_tree(workspace).above(launch_file.file)
-        known = {name for configurations in above for name in (*configurations.set_or_passed, *configurations.declared)}
-        yield from _too_early(launch_file.file, launch.include_resolver(workspace), known)
+        if above is not None:
+            known = {name for configurations in above for name in (*configurations.set_or_passed, *configurations.declared)}
+            yield from _too_early(launch_file.file, launch.include_resolver(workspace), known)
 
 
 def _too_early(file: LaunchFile, resolver: launch.IncludeResolver, above: Collection[str]) -> Iterator[Finding]:
@@ -119,7 +120,10 @@ def _read_early(
                     yield _Early(name, span, not part and not conditional, holds)
         for inner in launch.walk_actions((action,)):
             if inner.kind == "include" and (target := resolver.target(inner.target, file)) is not None:
-                known |= resolver.takes(target.file).known
+                takes = resolver.takes(target.file)
+                if not takes.complete:
+                    return  # a file below may declare anything
+                known |= takes.known
             elif inner.kind == "include":
                 return  # the included file may declare anything
             known.update(name for name, _ in inner.arguments)

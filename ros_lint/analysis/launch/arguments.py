@@ -49,6 +49,8 @@ def argument_use(file: LaunchFile, workspace: Workspace) -> ArgumentUse | None:
     if workspace.unread() or not own.complete or not resolver.takes(file).complete:
         return None
     above = tree.above(file)
+    if above is None:
+        return None
     inside = frozenset().union(*(resolver.takes(inner).known for inner in resolver.includes(file)))
     known = {*own.declared, *own.set_or_passed}.union(*([*names.declared, *names.set_or_passed] for names in above))
     unknown = own.read - known - inside

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from ros_lint.analysis.launch.includes import configurations_read, include_resolver
+from ros_lint.analysis.launch.includes import MOST_RELATED, configurations_read, include_resolver
 from ros_lint.analysis.launch.workspace_files import launch_file
 from ros_lint.analysis.memo import cached_by_name, cached_by_workspace
 from ros_lint.base.text import Span
@@ -121,20 +121,23 @@ def _of_all(workspace: Workspace) -> Iterator[FileConfigurations]:
 def _fills(workspace: Workspace, path: str) -> bool:
     if not _filling(workspace):
         return False
-    return not _related(workspace, path).isdisjoint(_filling(workspace))
+    related = _related(workspace, path)
+    return related is None or not related.isdisjoint(_filling(workspace))
 
 
-def _related(workspace: Workspace, path: str) -> set[str]:
-    """Return the paths of a file and of the files above and below it in the tree of includes."""
+def _related(workspace: Workspace, path: str) -> set[str] | None:
+    """Return the paths of a file and of the files above and below it in the tree of includes. None if there are too many."""
     includers, included = _relation(workspace)
-    return {path} | _reached(includers, path) | _reached(included, path)
+    above, below = _reached(includers, path), _reached(included, path)
+    return {path} | above | below if above is not None and below is not None else None
 
 
 @cached_by_name
 def _declares_all(workspace: Workspace, path: str) -> bool:
-    if any(_may_declare_any(workspace, related) for related in sorted(_related(workspace, path))):
+    related, all_above = _related(workspace, path), _above(workspace, path)
+    if related is None or all_above is None or any(_may_declare_any(workspace, other) for other in sorted(related)):
         return False
-    return not any(_is_for_callers(workspace, above) for above in _above(workspace, path))
+    return not any(_is_for_callers(workspace, above) for above in all_above)
 
 
 @cached_by_name
@@ -144,7 +147,7 @@ def _is_for_callers(workspace: Workspace, path: str) -> bool:
     It requires arguments, but no launch file of the workspace includes it.
     """
     file = launch_file(workspace, path)
-    return file is not None and not _above(workspace, path) and bool(include_resolver(workspace).takes(file).required)
+    return file is not None and _above(workspace, path) == () and bool(include_resolver(workspace).takes(file).required)
 
 
 @cached_by_name
@@ -160,8 +163,9 @@ def _may_declare_any(workspace: Workspace, path: str) -> bool:
 
 
 @cached_by_name
-def _above(workspace: Workspace, path: str) -> tuple[str, ...]:
-    return tuple(sorted(_reached(_relation(workspace).includers, path)))
+def _above(workspace: Workspace, path: str) -> tuple[str, ...] | None:
+    above = _reached(_relation(workspace).includers, path)
+    return tuple(sorted(above)) if above is not None else None
 
 
 class IncludeTree:
@@ -183,7 +187,7 @@ class IncludeTree:
         """Return whether ``file``, or a launch file above or below it in the tree of includes, may read any configuration.
 
         This is the case for a launch file that substitutes configurations in a parameter file: users can replace the
-        parameter file by one with further configurations.
+        parameter file by one with further configurations. It is assumed if there are too many files above or below.
         """
         return _fills(self._workspace, file.path)
 
@@ -191,13 +195,17 @@ class IncludeTree:
         """Return whether all configurations are known that ``file`` and the files above and below it declare or set.
 
         They are not known if one of these files includes an unknown launch file, or has an action of an unknown class. Nor are
-        they if a file above requires arguments, but nothing in the workspace includes it, because a file outside may do so.
+        they if a file above requires arguments, but nothing in the workspace includes it, because a file outside may do so, or
+        if there are too many files above or below.
         """
         return _declares_all(self._workspace, file.path)
 
-    def above(self, file: LaunchFile) -> list[FileConfigurations]:
-        """Return the configurations of every file that includes ``file``, directly or indirectly."""
-        found = [_names(self._workspace, path) for path in _above(self._workspace, file.path)]
+    def above(self, file: LaunchFile) -> list[FileConfigurations] | None:
+        """Return the configurations of every file that includes ``file``, directly or indirectly. None if there are too many."""
+        paths = _above(self._workspace, file.path)
+        if paths is None:
+            return None
+        found = [_names(self._workspace, path) for path in paths]
         return [names for names in found if names is not None]
 
     def includers(self, path: str) -> frozenset[str]:
@@ -211,11 +219,16 @@ def include_tree(workspace: Workspace) -> IncludeTree:
     return IncludeTree(workspace)
 
 
-def _reached(edges: Mapping[str, frozenset[str]], start: str) -> set[str]:
-    """Return the paths that can be reached over ``edges`` from the path ``start``, without ``start`` itself."""
+def _reached(edges: Mapping[str, frozenset[str]], start: str) -> set[str] | None:
+    """Return the paths that can be reached over ``edges`` from the path ``start``, without ``start`` itself.
+
+    The result is None if there are more than :data:`MOST_RELATED`.
+    """
     seen = {start}
     waiting = [start]
     while waiting:
+        if len(seen) > MOST_RELATED:
+            return None
         new = edges.get(waiting.pop(), frozenset()) - seen
         seen |= new
         waiting += new

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from ros_lint.analysis.launch.workspace_files import file_owners, launch_file, launch_places
 from ros_lint.analysis.memo import cached_by_name, cached_by_workspace
@@ -25,6 +25,10 @@ class InstalledLaunchFile(NamedTuple):
     """Path below share/<package>."""
 
 
+MOST_RELATED: Final = 500
+"""Maximum number of launch files above or below a launch file that are followed. In large workspaces there are up to 150."""
+
+
 class AcceptedArguments(NamedTuple):
     """The launch configurations that a launch file and its included files accept."""
 
@@ -33,7 +37,10 @@ class AcceptedArguments(NamedTuple):
     known: frozenset[str]
     """Names of all configurations that the file or an included file declares, sets or reads."""
     complete: bool
-    """True if every include could be resolved, so that no other name is accepted."""
+    """True if every include could be resolved, so that no other name is accepted.
+
+    False, too, if there are more than :data:`MOST_RELATED` files below the file.
+    """
 
 
 class _Own(NamedTuple):
@@ -75,6 +82,9 @@ def _with_included(workspace: Workspace, path: str, own: _Own) -> AcceptedArgume
         inner = waiting.pop()
         own_of_inner = _owns(workspace, inner) if inner not in seen else None
         if own_of_inner is not None:
+            if len(seen) > MOST_RELATED:
+                complete = False
+                break
             seen.add(inner)
             known |= own_of_inner.known
             complete = complete and own_of_inner.complete
