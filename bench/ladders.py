@@ -231,6 +231,8 @@ LADDERS: dict[str, Callable[[int], Files]] = {
         "add_library(b src/b.cpp)\n" + f"target_link_libraries(b {words(n, 'c%d')})\n", files={"src/b.cpp": ""}
     ),
     "CMake: installed files": lambda n: cmake(f"install(FILES {words(n, 'c%d.yaml')} DESTINATION share/a)\n"),
+    "setup.cfg: requirements": lambda n: {**setup(""), "setup.cfg": "[options]\ninstall_requires =\n" + lines(n, "  b%d")},
+    "setup.cfg: wrong lines": lambda n: {**setup(""), "setup.cfg": "[options]\n" + lines(n, "b%d")},
     "CMake: installed files of a list": lambda n: cmake(
         f'set(a "{words(n, "c%d.yaml", ";")}")\ninstall(FILES ${{a}} DESTINATION share/a)\n'
     ),

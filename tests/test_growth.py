@@ -33,8 +33,8 @@ EXCEPTIONS: Final = {
     "CMake: unknown conditions of a text": "each condition adds an alternative; the characters of a script are limited",
     "CMake: a list, written again": "each command writes the whole list; the characters of a script are limited",
     "launch.py: packages": "each look-up is compared with the references before it; longer launch files are not read",
-    "CMake: targets in a chain": "each target is followed to all below it, at most 1,000",
-    "CMake: targets in a ring": "each target is followed to all below it, at most 1,000",
+    "CMake: targets in a chain": "each target is followed to all below it, at most 200",
+    "CMake: targets in a ring": "each target is followed to all below it, at most 200",
     "CMake: replacements": "a compiled expression is extended by states when it first needs them, at most 1,000",
     **{
         name: "a name is compared with all others if these are at most 100, otherwise with a few"

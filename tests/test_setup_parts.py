@@ -113,3 +113,16 @@ def test_setup_cfg_is_read_as_by_configparser(lines: list[str], newline: str) ->
     for option in found.options:
         assert source.slice(option.span).replace("-", "_") == option.key
         assert [source.slice(line.span) for line in option.lines] == [line.text for line in option.lines]
+
+
+def test_only_the_first_wrong_lines_of_setup_cfg_are_reported() -> None:
+    text = "[options]\n" + "wrong\n" * 12
+    found = setup_cfg.collect(Text("setup.cfg", text)).problems
+    assert [problem.span.line for problem in found] == list(range(2, 12))
+
+
+def test_lines_that_continue_an_option_belong_to_it() -> None:
+    text = "[options]\ninstall_requires =\n  a\n  b\n\n  c\npackages = d\n  e\n[metadata]\n"
+    options = setup_cfg.collect(Text("setup.cfg", text)).section("options")
+    assert options["install_requires"].value == "a\nb\nc"
+    assert options["packages"].value == "d\ne"

@@ -53,15 +53,19 @@ _OPTION = re.compile(r"(.*?)\s*[=:]\s*(.*)$")
 # Sections with options of setuptools or distutils. In any other section, a dash is part of the key.
 _DASHED = frozenset({"develop", "install", "metadata", "options"})
 
+_MOST_WRONG_LINES = 10
+
 
 def collect(source: Text) -> SetupCfg:
     """Return the options and problems of a ``setup.cfg``.
 
     Problems have the kinds ``setup-cfg-syntax`` (setuptools stops with an error) and ``dashed-key`` (a key with a dash,
-    which setuptools rejects or warns about, depending on its version).
+    which setuptools rejects or warns about, depending on its version). Of the wrong lines, only the first ten are reported.
     """
     options: list[Option] = []
     problems: list[Problem] = []
+    wrong: list[Problem] = []
+    continuations: list[Line] = []
     texts: list[WrittenText] = []
     section = ""
     last = source.span(0, 0)
@@ -76,8 +80,9 @@ def collect(source: Text) -> SetupCfg:
         whole = source.span(start, start + len(text))
         last = whole.end()
         if indent is not None and width > indent:
-            options[-1] = options[-1]._replace(lines=(*options[-1].lines, Line(text, whole)))
+            continuations.append(Line(text, whole))
             continue
+        _extend(options, continuations)
         indent = None
         header, given = _SECTION.match(text), _OPTION.match(text)
         if header:
@@ -85,7 +90,7 @@ def collect(source: Text) -> SetupCfg:
             texts.append(WrittenText("section", section, last))
         elif given is None or not section or not given[1]:
             message = "this line is in no section" if not section else "this line is neither a section nor an option"
-            problems.append(Problem("setup-cfg-syntax", message, whole))
+            wrong.append(Problem("setup-cfg-syntax", message, whole))
         else:
             indent = width
             at = start + given.start(2)
@@ -95,6 +100,14 @@ def collect(source: Text) -> SetupCfg:
             if "-" in given[1] and section in _DASHED:
                 message = f"{given[1]} with a dash; write {option.key}"
                 problems.append(Problem("dashed-key", message, option.span, subject=given[1]))
+    _extend(options, continuations)
     texts += [WrittenText("option", f"{option.section}.{option.key}", option.lines[0].span) for option in options if option.lines]
     texts.append(WrittenText("section", "", last))
-    return SetupCfg(tuple(options), tuple(problems), tuple(texts))
+    return SetupCfg(tuple(options), (*wrong[:_MOST_WRONG_LINES], *problems), tuple(texts))
+
+
+def _extend(options: list[Option], continuations: list[Line]) -> None:
+    """Move the lines that continue the last option from ``continuations`` to the option."""
+    if continuations:
+        options[-1] = options[-1]._replace(lines=(*options[-1].lines, *continuations))
+        continuations.clear()

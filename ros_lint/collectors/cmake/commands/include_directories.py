@@ -127,7 +127,7 @@ def are_in_flags(run: Run) -> bool:
     return any(_FOLDER_OPTION.search(run.get(flags) or "") for flags in _FLAGS)
 
 
-_MOST_LINKED: Final = 1_000
+_MOST_LINKED: Final = 200
 """Maximum number of targets that are followed from one target, directly or transitively."""
 
 
