@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import ros_lint.collectors.cmake.evaluate  # noqa: F401  (it registers the commands and blocks)
 from ros_lint.base.text import Text
 from ros_lint.base.tree import DiskTree
 from ros_lint.collectors.cmake.evaluator import flow as cmake_flow

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import pytest
 
+import ros_lint.collectors.cmake.evaluate  # noqa: F401  (it registers the commands and blocks)
 from ros_lint.base.budget import BudgetExceeded
 from ros_lint.base.text import Text
 from ros_lint.collectors.cmake.evaluator import flow as cmake_flow
