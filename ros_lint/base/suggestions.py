@@ -74,7 +74,7 @@ _DESCRIPTIONS = frozenset({"launch", "lua", "rviz", "sdf", "srdf", "urdf", "yaml
 _SAME_KIND = {"world": "sdf", "yml": "yaml"}
 
 
-def of_same_kind(path: str, paths: Iterable[str]) -> list[str]:
+def of_same_kind(path: str, paths: tuple[str, ...]) -> tuple[str, ...]:
     """Return the members of ``paths`` with the kind of file of the misspelled ``path``, or with no known kind.
 
     Example: robot.srdf cannot mean robot.urdf.xacro. The kind is the last suffix, without ``.xacro`` and without the
@@ -82,10 +82,14 @@ def of_same_kind(path: str, paths: Iterable[str]) -> list[str]:
     for example, may be stored in another format. If ``path`` has no kind, all members are returned.
     """
     kind = _kind_of_file(path)
-    return [other for other in paths if not kind or _kind_of_file(other) in ("", kind)]
+    return _of_kind(kind, paths) if kind else paths
 
 
-@lru_cache(maxsize=_MOST_NAMES)
+@lru_cache(maxsize=8)
+def _of_kind(kind: str, paths: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple([path for path in paths if _kind_of_file(path) in ("", kind)])
+
+
 def _kind_of_file(path: str) -> str:
     suffixes = path.rpartition("/")[2].split(".")[1:]
     kinds = [_SAME_KIND.get(suffix, suffix) for suffix in suffixes]

@@ -53,6 +53,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 
 from ros_lint.api import (
     Confidence,
@@ -411,11 +412,21 @@ def _hint(path: str, all_names: tuple[str, ...]) -> str:
     ``robot.urdf`` and ``robot.urdf.xacro`` count as the same name.
     """
     base = path.rpartition("/")[2]
+    alike = names.of_same_kind(path, _by_base(all_names).get(_without_xacro(path), ()))
+    if same := [name for name in alike if name.rpartition("/")[2] == base] or alike:
+        return names.did_you_mean(names.similar_names(path, same, 1, 0))
     meant = names.of_same_kind(path, all_names)
-    same = [name for name in meant if name.rpartition("/")[2] == base]
-    same = same or [name for name in meant if _without_xacro(name) == _without_xacro(path)]
     near = [name for name in names.near_names(path, meant, 3, 0.8) if names.near_names(base, [name.rpartition("/")[2]], 1, 0.6)]
-    return names.did_you_mean(names.similar_names(path, same, 1, 0) or near[:1])
+    return names.did_you_mean(near[:1])
+
+
+@lru_cache(maxsize=8)
+def _by_base(paths: tuple[str, ...]) -> Mapping[str, tuple[str, ...]]:
+    """Return files by their names without ``.xacro``."""
+    result: dict[str, list[str]] = {}
+    for path in paths:
+        result.setdefault(_without_xacro(path), []).append(path)
+    return {base: tuple(same) for base, same in result.items()}
 
 
 def _without_xacro(path: str) -> str:

@@ -105,13 +105,14 @@ def _of_include(
     file = f"{target.package.name}/{target.path}"
     sure = not launch.include_tree(workspace).fill(target.file)
     not_passed = sorted(takes.known - passed.keys())
+    free = frozenset(not_passed)
     for name, (value, place) in passed.items() if takes.complete else ():
         if name in takes.known or name in elsewhere or name in action.conditional_arguments or (name in filled and not sure):
             continue
         if not leaks.is_taken_later(name, include, source):
             alone = not leaks.is_taken_above(name, include, source)
             near = names.similar_names(name, not_passed, 1, 0.85)
-            hint = names.did_you_mean(near or sorted(set(_configurations(value)).intersection(not_passed)))
+            hint = names.did_you_mean(near or sorted(free.intersection(_configurations(value))))
             hint = hint or _in_sibling(name, target.file, target.package, source, workspace) or "; remove it"
             yield _useless(file, name, place, hint, sure=sure and (bool(near) or alone), is_similar=bool(near))
 

@@ -45,9 +45,10 @@ Reported with medium confidence, because something may create the file:
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
-from ros_lint.api import Call, Confidence, Finding, Package, Problem, Rule, Severity, Workspace, build, names
+from ros_lint.api import Call, Confidence, Finding, Package, Problem, Rule, Severity, Workspace, build, cached_by_package, names
 
 _KINDS = ("missing-file", "missing-folder", "missing-script", "file-is-directory")
 _KINDS_OF_INSTALL = ("DIRECTORY", "FILES", "PROGRAMS", "TARGETS")
@@ -80,7 +81,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
 def _message(package: Package, workspace: Workspace, problem: Problem, path: str) -> str:
     if workspace.is_untracked(package, path):
         return f"'{path}' exists, but git does not track it, so a clone lacks it; run git add"
-    hint = _hint(package, path) if problem.kind != "file-is-directory" else ""
+    hint = _hint(package, path, workspace) if problem.kind != "file-is-directory" else ""
     message = f"'{path}' does not exist" if path in _KINDS_OF_INSTALL else problem.message
     if not hint and ";" not in message:  # the message has no remedy
         hint = f"; correct the path, or add the {'folder' if problem.kind == 'missing-folder' else 'file'}"
@@ -98,14 +99,15 @@ def _confidence(package: Package, workspace: Workspace, problem: Problem) -> Con
     missing = problem.subject.rstrip("/")
     if any(workspace.is_made(package, path) for path in (missing, f"{missing}/*")):  # or everything in it
         return Confidence.MEDIUM
-    if _makes_files(package) or (_is_installed(package, problem) and _builds_in_sources(package)):
+    if _makes_files(package, workspace) or (_is_installed(package, problem) and _builds_in_sources(package, workspace)):
         return Confidence.MEDIUM
     if problem.kind == "missing-folder" and any(path.endswith(".gitmodules") for path in workspace.source_lists):
         return Confidence.MEDIUM
     return Confidence.HIGH
 
 
-def _makes_files(package: Package) -> bool:
+@cached_by_package
+def _makes_files(package: Package, _workspace: Workspace) -> bool:
     """Return whether the script may create files while CMake configures."""
     makers = _MAKES_FILES.intersection(package.built.commands.names)
     if not makers.issubset(_RUNS):
@@ -131,7 +133,8 @@ def _is_installed(package: Package, problem: Problem) -> bool:
     return before > 0 and installs[before - 1].extent.covers(problem.span)
 
 
-def _builds_in_sources(package: Package) -> bool:
+@cached_by_package
+def _builds_in_sources(package: Package, _workspace: Workspace) -> bool:
     """Return whether a custom command or target names the source folder in its command, arguments or working directory."""
     for call in package.calls("add_custom_command", "add_custom_target", anywhere=True):
         word = ""
@@ -143,7 +146,7 @@ def _builds_in_sources(package: Package) -> bool:
     return False
 
 
-def _hint(package: Package, path: str) -> str:
+def _hint(package: Package, path: str, workspace: Workspace) -> str:
     """Return the suggestion for a missing file: the only file of the package with its name, or a similar name in its folder.
 
     A repeated keyword of install(), such as ``FILES FILES a.txt``, is read as a path, too: then the suggestion is to write it
@@ -152,12 +155,30 @@ def _hint(package: Package, path: str) -> str:
     if path in _KINDS_OF_INSTALL:
         return f"; CMake reads a repeated {path} as a path, so write it only once"
     folder, _, name = path.rpartition("/")
-    same = [file for file in package.files if file.rpartition("/")[2] == name]
+    by_name, by_folder = _files(package, workspace)
+    same = by_name.get(name, ())
     if len(same) == 1:
         return names.ask_if_meant(same)
-    meant = names.of_same_kind(path, package.files)
-    siblings = [file.rpartition("/")[2] for file in meant if file.rpartition("/")[0] == folder]
+    siblings = names.of_same_kind(path, by_folder.get(folder, ()))
     return names.ask_if_meant([f"{folder}/{near}".lstrip("/") for near in names.similar_names(name, siblings, 1, 0.8)])
+
+
+class _Files(NamedTuple):
+    by_name: Mapping[str, tuple[str, ...]]
+    """The paths of the files of a package, by the last component."""
+    by_folder: Mapping[str, tuple[str, ...]]
+    """The last components of the paths, by folder."""
+
+
+@cached_by_package
+def _files(package: Package, _workspace: Workspace) -> _Files:
+    by_name: dict[str, list[str]] = {}
+    by_folder: dict[str, list[str]] = {}
+    for file in package.files:
+        folder, _, name = file.rpartition("/")
+        by_name.setdefault(name, []).append(file)
+        by_folder.setdefault(folder, []).append(name)
+    return _Files(*({key: tuple(values) for key, values in index.items()} for index in (by_name, by_folder)))
 
 
 def _python_packages(package: Package) -> Iterator[Finding]:
