@@ -30,7 +30,8 @@ Reported with medium confidence:
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
 
 from ros_lint.api import (
     Confidence,
@@ -41,6 +42,7 @@ from ros_lint.api import (
     Rule,
     Severity,
     Workspace,
+    cached_by_name,
     cached_by_package,
     first_related,
     launch,
@@ -54,7 +56,7 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         if all_names is None:
             continue
         best, *others = sorted(references, key=lambda reference: (reference.from_default, reference.span))
-        meant = [other for other in all_names if other.lower() == name.lower()]
+        meant = _by_lower(all_names).get(name.lower(), [])
         near = (
             meant
             or [
@@ -80,6 +82,15 @@ def check(package: Package, workspace: Workspace) -> Iterator[Finding]:
         )
 
 
+@lru_cache(maxsize=8)
+def _by_lower(all_names: tuple[str, ...]) -> Mapping[str, list[str]]:
+    """Return the names of components by their names in lower case."""
+    result: dict[str, list[str]] = {}
+    for name in all_names:
+        result.setdefault(name.lower(), []).append(name)
+    return result
+
+
 def _class(name: str) -> str:
     """Return the class name of a component without its namespace: ``Talker`` for ``demo::Talker``."""
     return name.rpartition("::")[2]
@@ -94,7 +105,14 @@ def _names_without(owner: str, name: str, workspace: Workspace) -> tuple[str, ..
     registered = [_registered(package, workspace) for package in owners]
     if any(all_names is None or name in all_names for all_names in registered):
         return None
-    return tuple(sorted({other for all_names in registered for other in all_names or ()}))
+    return _all_registered(workspace, owner)
+
+
+@cached_by_name
+def _all_registered(workspace: Workspace, owner: str) -> tuple[str, ...]:
+    """Return the known components of the packages with the name ``owner``, sorted."""
+    registered = [_registered(package, workspace) for package in workspace.by_name.get(owner, ())]
+    return tuple(sorted({name for all_names in registered for name in all_names or ()}))
 
 
 @cached_by_package

@@ -62,8 +62,9 @@ def wrong_types(uses: Iterable[NodeParameterFile], workspace: Workspace) -> Iter
             if parameter.name not in again and any(matches(parameter.node, name) for name in names):
                 rows.setdefault(parameter.name, []).append(parameter)
         declared = program.declared
+        patterns = _patterns(declared)
         for name, parameters in rows.items():
-            found = declared.get(name) or next((declared[key] for key in declared if _fits(name, key)), None)
+            found = declared.get(name) or next((declared[key] for key in patterns if _fits(name, key)), None)
             if found is None or not all(_differ(parameter.type, found.type) for parameter in parameters):
                 continue
             for parameter in parameters:
@@ -88,40 +89,57 @@ def undeclared(uses: Sequence[NodeParameterFile], workspace: Workspace) -> Itera
     ``uses`` are all places where launch files of the workspace pass the file. Nothing is yielded about a node whose code is
     not in the workspace, or may declare parameters whose names are computed.
     """
-    receivers: list[tuple[NodeParameterFile, tuple[str, ...], frozenset[str], list[str]]] = []
+    receivers: list[_Receiver] = []
     given = {parameter.name for parameter in uses[0].file.parameters}
     for passed in uses:
         program, names = _receiver(passed, workspace)
         if program is None or not names or not is_closed(program.package, workspace):
             return
         free = [name for name in program.declared if name not in given]
-        receivers.append((passed, names, words_of(program.package, workspace), free))
+        words = words_of(program.package, workspace)
+        receivers.append(_Receiver(passed, names, words, _patterns(words), free))
     nodes = dict.fromkeys(parameter.node for parameter in uses[0].file.parameters)
-    of_node = {node: [row for row in receivers if any(matches(node, name) for name in row[1])] for node in nodes}
+    of_node = {node: [row for row in receivers if any(matches(node, name) for name in row.names)] for node in nodes}
     for parameter in uses[0].file.parameters:
         own = of_node[parameter.node]
         if not own or _is_of_every_node(parameter.name):
             continue
         last = parameter.name.rpartition(".")[2]
-        if any(parameter.name in words or last in words or _is_described(parameter.name, words) for _, _, words, _ in own):
+        if any(parameter.name in row.words or last in row.words or _is_described(parameter.name, row) for row in own):
             continue
-        passed, names, _, free = own[0]
-        near = similar_names(parameter.name, free, 1, 0.8)
-        yield Undeclared(passed, parameter, names[0], near[0] if near else "")
+        near = similar_names(parameter.name, own[0].free, 1, 0.8)
+        yield Undeclared(own[0].passed, parameter, own[0].names[0], near[0] if near else "")
 
 
-def _is_described(name: str, words: frozenset[str]) -> bool:
+class _Receiver(NamedTuple):
+    """A node that receives a parameter file."""
+
+    passed: NodeParameterFile
+    names: tuple[str, ...]
+    """The names that the node may have."""
+    words: frozenset[str]
+    """The words in the code of its package, and the parameters that files of generate_parameter_library describe."""
+    patterns: tuple[str, ...]
+    """Those of ``words`` in which a part may be any name."""
+    free: list[str]
+    """The parameters that the node declares and the file does not set."""
+
+
+def _is_described(name: str, receiver: _Receiver) -> bool:
     """Return whether a file of generate_parameter_library has a parameter, perhaps below a prefix that the code adds."""
     tails = [name[at + 1 :] for at, letter in enumerate(name) if letter == "." and "." in name[at + 1 :]]
-    if not set(tails).isdisjoint(words):
+    if not receiver.words.isdisjoint(tails):
         return True
-    return any(_fits(tail, word) for word in words if ANY_PART in word for tail in (name, *tails))
+    return any(_fits(tail, pattern) for pattern in receiver.patterns for tail in (name, *tails))
+
+
+def _patterns(names: Iterable[str]) -> tuple[str, ...]:
+    """Return the names in which a part may be any name."""
+    return tuple([name for name in names if ANY_PART in name])
 
 
 def _fits(name: str, described: str) -> bool:
     """Return whether a name of a parameter fits a name in which a part may be any name: ``pid.elbow.p`` fits ``pid.*.p``."""
-    if ANY_PART not in described:
-        return False
     parts, pattern = name.split("."), described.split(".")
     return len(parts) == len(pattern) and all(wanted in (part, ANY_PART) for part, wanted in zip(parts, pattern, strict=True))
 

@@ -85,6 +85,10 @@ class _Element(NamedTuple):
     """The message type of the field, "" for other types."""
 
 
+_MOST_PROBLEMS = 100
+"""Maximum number of errors of a file that are reported. rosidl itself stops at the first one."""
+
+
 def collect(source: Text) -> InterfaceFile:
     """Return the message types in an interface definition, and the errors for which rosidl rejects the definition."""
     path, text = source.path, source.text
@@ -115,7 +119,8 @@ def collect(source: Text) -> InterfaceFile:
         try:
             element = _element(match[0].rstrip())
         except _LineError as error:
-            problems.append(InterfaceProblem(error.message, source.span(at + error.start, at + error.end), error.instead))
+            if len(problems) < _MOST_PROBLEMS:
+                problems.append(InterfaceProblem(error.message, source.span(at + error.start, at + error.end), error.instead))
             continue
         if element is None:
             continue
@@ -127,7 +132,7 @@ def collect(source: Text) -> InterfaceFile:
             line = source.position(first)[0]
             message = f"'{element.name}' is already defined on line {line}; choose another name"
             problems.append(InterfaceProblem(message, source.span(start, start + len(element.name))))
-    return InterfaceFile(path, tuple(types), tuple(problems))
+    return InterfaceFile(path, tuple(types), tuple(problems[:_MOST_PROBLEMS]))
 
 
 def _is_utf_8(source: Text) -> bool:
