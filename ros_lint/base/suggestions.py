@@ -23,10 +23,16 @@ def similar_names(name: str, names: Iterable[str], most: int = 1, least: float =
     """
     from difflib import get_close_matches  # noqa: PLC0415  (slow to import, and needed for unknown names only)
 
-    known = tuple(islice(names, _MOST_NAMES + 1))
+    known = _sorted(names) if isinstance(names, frozenset) else tuple(sorted(islice(names, _MOST_NAMES + 1)))
     if len(known) > _MOST_COMPARED:
-        known = _candidates(name, tuple(sorted(known))) if len(known) <= _MOST_NAMES else ()
+        known = _candidates(name, known) if len(known) <= _MOST_NAMES else ()
     return get_close_matches(name, known, most, least)
+
+
+@lru_cache(maxsize=8)
+def _sorted(names: frozenset[str]) -> tuple[str, ...]:
+    """Return the names sorted, only some if there are too many. A frozenset computes its hash once, so that look-ups are fast."""
+    return tuple(sorted(islice(names, _MOST_NAMES + 1)))
 
 
 def _candidates(name: str, names: tuple[str, ...]) -> tuple[str, ...]:

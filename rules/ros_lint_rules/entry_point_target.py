@@ -29,7 +29,8 @@ Not reported:
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from ros_lint.api import (
     BuildScript,
@@ -39,6 +40,7 @@ from ros_lint.api import (
     Finding,
     Fix,
     Package,
+    PythonModule,
     Related,
     Rule,
     Severity,
@@ -64,14 +66,14 @@ def _lacking(
     ``attribute`` is None for an entry point without ``:function``. Such an entry point is reported if it is for a program.
     """
     runs = entry.group in ("console_scripts", "gui_scripts")
-    module = next((module for module in script.python.entry_point_modules if module.name == name), None)
+    module, defined = _entry_point_modules(package, workspace).get(name, (None, frozenset()))
     if attribute is None:
         missing = list(_no_module(package, entry, name, "main", workspace)) if runs and module is None else []
         if missing:
             yield missing[0]._replace(fix=None)  # a correct module name alone would not repair the entry
         elif runs:
             remedy = f"write {name}:main"
-            if module is not None and not module.open and "main" not in module.names:
+            if module is not None and not module.open and "main" not in defined:
                 remedy = f"'{module.path}' has no 'main': define it and {remedy}, or remove the entry point"
             yield Finding(f"entry point '{entry.name}' names a module but no function; {remedy}", entry.span, entry.name)
         return
@@ -79,8 +81,8 @@ def _lacking(
         yield from _no_module(package, entry, name, attribute, workspace)
         return
     first = attribute.partition(".")[0]
-    if not module.open and first not in module.names and f"{name}.{first}" not in script.products.python_packages:
-        near = names.similar_names(first, module.names, 1, 0.7)
+    if not module.open and first not in defined and f"{name}.{first}" not in script.products.python_packages:
+        near = names.similar_names(first, defined, 1, 0.7)
         hint = names.ask_if_meant(near) or "; define it, or remove the entry point"
         yield Finding(
             f"entry point '{entry.name}': '{module.path}' does not define '{first}'{hint}",
@@ -91,8 +93,45 @@ def _lacking(
 
 
 @cached_by_package
+def _entry_point_modules(package: Package, _: Workspace) -> Mapping[str, tuple[PythonModule, frozenset[str]]]:
+    """Return the modules in the sources that entry points name, each with the names that it defines, by name."""
+    return {module.name: (module, frozenset(module.names)) for module in reversed(package.built.python.entry_point_modules)}
+
+
+@cached_by_package
 def _targets(package: Package, _: Workspace) -> frozenset[str]:
     return frozenset([entry.target for entry in package.built.products.entry_points])
+
+
+_MOST_SIMILAR = 10
+"""Maximum number of similar modules of which one is suggested."""
+
+
+class _Modules(NamedTuple):
+    """The Python modules in the sources of a package."""
+
+    tops: frozenset[str]
+    """The names of the Python packages without a parent package."""
+    all: tuple[str, ...]
+    """The names with dots, sorted. missing-python-module checks that they are installed."""
+    by_rest: Mapping[str, Sequence[str]]
+    """The names with dots by what follows the first dot."""
+    not_importable: tuple[str, ...]
+    """The paths of files that Python cannot import because of their names."""
+
+
+@cached_by_package
+def _modules(package: Package, _: Workspace) -> _Modules:
+    packages = package.built.products.python_packages
+    tops = frozenset([module.partition(".")[0] for module in packages])
+    files = [file for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops]
+    not_importable = dict.fromkeys(file for file in files if not all(map(str.isidentifier, file[:-3].split("/"))))
+    importable = {file[:-3].replace("/", ".") for file in files if file not in not_importable}
+    modules = tuple(sorted(module for module in importable.union(packages) if "." in module))
+    by_rest: dict[str, list[str]] = {}
+    for module in modules:
+        by_rest.setdefault(module.partition(".")[2], []).append(module)
+    return _Modules(tops, modules, by_rest, tuple(not_importable))
 
 
 def _no_module(package: Package, entry: EntryPoint, name: str, function: str, workspace: Workspace) -> Iterator[Finding]:
@@ -103,26 +142,30 @@ def _no_module(package: Package, entry: EntryPoint, name: str, function: str, wo
     script = package.script
     if script is None or name in script.products.python_packages or package.hidden(Facet.PYTHON) or workspace.unread(package):
         return
-    tops = {module.partition(".")[0] for module in script.products.python_packages}
-    own = name.partition(".")[0]
+    modules = _modules(package, workspace)
+    tops = modules.tops
+    own, _, rest = name.partition(".")
     hint = "; add it, or remove the entry point"
     taken = _targets(package, workspace)  # no suggestion makes two programs the same
-    files = [file for file in package.files if file.endswith(".py") and file.partition("/")[0] in tops]
-    not_importable = [file for file in files if not all(map(str.isidentifier, file[:-3].split("/")))]
-    importable = {file[:-3].replace("/", ".") for file in files if file not in not_importable}
-    known = sorted(importable.union(script.products.python_packages))  # missing-python-module checks that they are installed
-    modules = [module for module in known if "." in module and taken.isdisjoint((module, f"{module}:{function}"))]
-    # Modules in folders that are not Python packages are no suggestions, because setup.py does not install them.
-    modules = [module for module in modules if _is_in_package(module, name, script, package.files)]
-    near = [module for module in names.similar_names(name, modules, 3, 0.9) if _is_slip(name, module)][:1]
+
+    def meant(candidates: Iterable[str]) -> list[str]:
+        # Modules in folders that are not Python packages are no suggestions, because setup.py does not install them.
+        return [
+            module
+            for module in candidates
+            if taken.isdisjoint((module, f"{module}:{function}")) and _is_in_package(module, name, script, package.files)
+        ]
+
+    similar = names.similar_names(name, modules.all, _MOST_SIMILAR, 0.9)
+    near = [module for module in meant(similar) if _is_slip(name, module)][:1]
     if own not in tops and own != package.name and not names.similar_names(own, [*tops, package.name], 1, 0.85):
         # In a copied package, entry points may still have the old package name before an existing module.
-        near = [module for module in modules if module.partition(".")[2] == name.partition(".")[2]]
+        near = meant(modules.by_rest.get(rest, ()))
         if not _lacks(workspace, own, name) and (not near or workspace.world.by_import(own).known):
             return
     if near:
         hint = names.ask_if_meant(near)
-    elif unusable := names.similar_names(f"{name.replace('.', '/')}.py", not_importable, 1, 0.9):
+    elif unusable := names.similar_names(f"{name.replace('.', '/')}.py", modules.not_importable, 1, 0.9):
         hint = f"; Python cannot import '{unusable[0]}' because of its name: rename it to {name.rpartition('.')[2]}.py"
     fix = _fix(entry, name, near[0] if near else "")
     yield Finding(f"entry point '{entry.name}': module '{name}' does not exist{hint}", entry.span, entry.name, fix=fix)

@@ -146,9 +146,31 @@ def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     if _is_among(used, available):
         return None
     by_hand = f"{used.maker}/{used.kind}/{used.name}{used.header}" if used.header else f"{used.kind}/__init__.py"
-    if any(f"/{file}".endswith(f"/{by_hand}") for file in maker.files):
+    named = _files_by_name(maker, workspace).get(by_hand.rpartition("/")[2], ())
+    if any(f"/{file}".endswith(f"/{by_hand}") for file in named):
         return None
-    return _message(used, generated, available, "generate", "; correct the name or add the file")
+    elsewhere = _first_by_form(maker, workspace)[bool(used.header)].get(used.name, "")
+    return _message(used, elsewhere, available, "generate", "; correct the name or add the file")
+
+
+@cached_by_package
+def _files_by_name(maker: Package, _: Workspace) -> Mapping[str, Sequence[str]]:
+    """Return the files of a package by the last component of their paths."""
+    result: dict[str, list[str]] = {}
+    for file in maker.files:
+        result.setdefault(file.rpartition("/")[2], []).append(file)
+    return result
+
+
+@cached_by_package
+def _first_by_form(maker: Package, _: Workspace) -> Mapping[bool, Mapping[str, str]]:
+    """Return the generated interfaces of a package by their names, which are in snake_case for the key True (headers)."""
+    return {header: _by_form(maker.built.products.interfaces, header) for header in (False, True)}
+
+
+def _by_form(interfaces: Sequence[str], header: bool) -> Mapping[str, str]:
+    form = _form(header)
+    return {form(interface.partition("/")[2]): interface for interface in reversed(interfaces)}
 
 
 def _wrong_without_interfaces(used: _Used, maker: Package, workspace: Workspace) -> str | None:
@@ -180,7 +202,8 @@ def _wrong_released(used: _Used, workspace: Workspace) -> str | None:
         return None
     if used.name not in _names(known, "", bool(used.header)) and not names.similar_names(used.name, available, 1, 0.88):
         return None  # not a typo: a newer version may have the interface
-    return _message(used, sorted(known), available, "have", "; correct the name")
+    elsewhere = _by_form(sorted(known), bool(used.header)).get(used.name, "")
+    return _message(used, elsewhere, available, "have", "; correct the name")
 
 
 def _is_among(used: _Used, available: Collection[str]) -> bool:
@@ -189,19 +212,17 @@ def _is_among(used: _Used, available: Collection[str]) -> bool:
     return used.name in available or (not used.header and any(name in available for name in beginnings))
 
 
-def _message(used: _Used, interfaces: Sequence[str], available: Collection[str], verb: str, remedy: str) -> str:
+def _message(used: _Used, elsewhere: str, available: Collection[str], verb: str, remedy: str) -> str:
     """Return the message about a use of a missing interface.
 
-    It suggests an interface of another kind but the same name from ``interfaces``, else a similar name from ``available``. If
-    there is no suggestion, it ends with ``remedy``. ``verb``: "generate" or "have".
+    It suggests ``elsewhere``, an interface of another kind but the same name, else a similar name from ``available``. If there
+    is no suggestion, it ends with ``remedy``. ``verb``: "generate" or "have".
     """
-    form = _form(used.header)
     named = f"{used.kind or 'msg'}/{used.name}{used.header}"
-    parts = ((interface.partition("/")[0], interface.partition("/")[2]) for interface in interfaces)
-    elsewhere = next((f"{kind}/{form(name)}{used.header}" for kind, name in parts if form(name) == used.name), "")
     if elsewhere:
-        return f"'{used.maker}' does not {verb} '{named}'; it has '{elsewhere}'"
-    near = names.nearest_names(used.name, sorted(available))
+        kind = elsewhere.partition("/")[0]
+        return f"'{used.maker}' does not {verb} '{named}'; it has '{kind}/{used.name}{used.header}'"
+    near = names.nearest_names(used.name, available)
     suggestion = names.did_you_mean([f"{name}{used.header}" for name in near])
     return f"'{used.maker}' does not {verb} '{named}'{suggestion or remedy}"
 

@@ -234,8 +234,7 @@ def blank_comments_near(text: str, places: Iterable[int], code: Sequence[int]) -
     comments of the whole text are blanked.
     """
     starts = sorted(places)
-    clear = sorted([*code, *starts])  # each place is checked after those before it
-    if any(may_be_comment(text, at, clear) for at in starts):
+    if may_be_comments(text, starts, code):
         return blank_comments(text)
     parts, end = [], 0
     for at, near in _joined(starts):
@@ -251,6 +250,15 @@ def _joined(starts: Sequence[int]) -> list[tuple[int, int]]:
         first = result.pop()[0] if result and at <= result[-1][1] else at
         result.append((first, at + 500))
     return result
+
+
+def may_be_comments(text: str, places: Sequence[int], code: Sequence[int]) -> bool:
+    """Return whether one of the sorted offsets ``places`` may be in a comment or a raw string.
+
+    ``code`` has sorted offsets that are certainly outside of comments and strings.
+    """
+    clear = sorted([*code, *places])  # each place is checked after those before it
+    return any(may_be_comment(text, at, clear) for at in places)
 
 
 def may_be_comment(text: str, at: int, code: Sequence[int] = ()) -> bool:

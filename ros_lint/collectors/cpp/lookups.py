@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp.includes import blank_comments, may_be_comment
+from ros_lint.collectors.cpp.includes import blank_comments, may_be_comments
 from ros_lint.collectors.cpp.registrations import class_name
 from ros_lint.facts.sources import LookUp, Mention, PluginLoader
 
@@ -35,7 +35,7 @@ def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tup
     if "get_package_" not in text:
         return [], ()
     calls = list(_LOOK_UP.finditer(text))
-    if _may_be_comments(text, calls, code):
+    if may_be_comments(text, [call.start() for call in calls], code):
         text = blank_comments(text)
         calls = list(_LOOK_UP.finditer(text))
     spans = source.spans([match.span(2) for match in calls])
@@ -49,23 +49,12 @@ def look_ups(source: Text, code: Sequence[int] = ()) -> tuple[list[Mention], tup
     return mentions, tuple(LookUp(package, path, span) for (_, package, path), span in zip(files, spans, strict=True))
 
 
-def _may_be_comments(text: str, matches: Sequence[re.Match[str]], code: Sequence[int]) -> bool:
-    """Return whether one of the matches may be in a comment.
-
-    If there are many, the result is True, because to look for a comment before each may take quadratic time.
-    """
-    return len(matches) > _MANY or any(may_be_comment(text, match.start(), code) for match in matches)
-
-
-_MANY = 100
-
-
 def loaders(source: Text, code: Sequence[int] = ()) -> tuple[PluginLoader, ...]:
     """Return the plugin loaders (pluginlib) in a source. The caller must check that the source may include ``pluginlib``."""
     if "oader" not in source.text:
         return ()
     matches = list(_LOADER.finditer(source.text))
-    if _may_be_comments(source.text, matches, code):
+    if may_be_comments(source.text, [match.start() for match in matches], code):
         matches = list(_LOADER.finditer(blank_comments(source.text)))
     spans = source.spans([match.span(1) for match in matches])
     return tuple(PluginLoader(match[1], class_name(match[2]), span) for match, span in zip(matches, spans, strict=True))

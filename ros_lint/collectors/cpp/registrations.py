@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Literal
 
-from ros_lint.collectors.cpp.includes import blank_comments, may_be_comment
+from ros_lint.collectors.cpp.includes import blank_comments, may_be_comments
 from ros_lint.facts.sources import Registration
 from ros_lint.facts.visibility import Facet, Opaque
 
@@ -28,7 +28,7 @@ def registrations(source: Text, code: Sequence[int] = ()) -> tuple[Registration,
     if not ("_REGISTER_" in text or "PLUGINLIB_EXPORT_CLASS" in text):
         return ()
     matches = list(_matches(text))
-    if any(may_be_comment(text, match.start(), code) for match in matches):
+    if may_be_comments(text, [match.start() for match in matches], code):
         matches = list(_matches(blank_comments(text)))
     spans = source.spans([match.span(1) for match in matches])
     result = []

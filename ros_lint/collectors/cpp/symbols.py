@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 import string
+from bisect import bisect_left
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
@@ -64,18 +65,25 @@ def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[r
     Lines that may be comments, strings or directives are skipped, because a source usually has further names. The result is
     None if there is no name.
     """
-    optional = None
+    optional, clear = None, 0
     qualifier = f"{package}::"
     pattern = _NAME if package in _NAMESPACES else _TYPE
     start = text.find(qualifier)
     while start >= 0:
         name = pattern.match(text, start + len(package))
-        if name and _is_code(text, start) and not may_be_comment(text, start, code):
+        if name and _is_code(text, start) and not may_be_comment(text, start, (clear := max(clear, _before(code, start)),)):
+            clear = start
             if not conditional or not any(start in index for index in conditional):
                 return start, name.end(), False, package
             optional = optional or (start, name.end(), True, package)
         start = text.find(qualifier, start + 1)
     return optional
+
+
+def _before(code: Sequence[int], at: int) -> int:
+    """Return the last of the sorted offsets before ``at``, 0 if there is none."""
+    position = bisect_left(code, at)
+    return code[position - 1] if position else 0
 
 
 def _is_code(text: str, at: int) -> bool:
