@@ -17,6 +17,7 @@ from ros_lint.collectors.python.import_tree import walk
 from ros_lint.collectors.python.imports import scan
 from ros_lint.collectors.python.source_errors import NotPythonError
 from ros_lint.collectors.python.syntax import is_of_others, parse, refusal
+from ros_lint.collectors.python.unused_imports import unused_imports
 from ros_lint.facts.visibility import Facet, Problem
 
 
@@ -327,3 +328,17 @@ def test_a_computed_import_is_opaque() -> None:
     assert [(opaque.hides, opaque.reason, str(opaque.span)) for opaque in facts.opaque] == [
         (Facet.USES, "the name of the module imported here is computed at run time", "a.py:1:29")
     ]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_an_import_of_many_is_unused_if_it_is_among_few(seed: int) -> None:
+    """Many imports are counted in another way than few."""
+    choice = random.Random(seed)
+    names = [f"{choice.choice(('a', 'é', 'a_', 'ab'))}{number}" for number in range(300)]
+    uses = [f"{choice.choice(('', 'x', 'x.', '_', '# '))}{name}{choice.choice(('', '_', 'é', '.y', '-'))}1" for name in names]
+    text = "".join(f"import {name}\n" for name in names) + "\n".join(choice.sample(uses, 200)) + "\n"
+    items = scan(text)
+    assert items is not None
+    of_many = unused_imports(text, "a.py", items)
+    assert of_many == frozenset(start for item in items for start in unused_imports(text, "a.py", [item]))
+    assert 0 < len(of_many) < len(names)

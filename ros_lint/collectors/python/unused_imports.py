@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from ros_lint.collectors.python.imports import IMPORTED_NAMES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from ros_lint.collectors.python.import_tree import Import
 
@@ -30,14 +31,22 @@ def unused_imports(text: str, path: str, imports: Iterable[Import]) -> frozenset
     """
     if path.endswith(("__init__.py", "conftest.py")) or "__all__" in text:
         return frozenset()
-    return frozenset([item.start for item in imports if _is_unused(text, item)])
+    items = tuple(imports)
+    if len(items) > _MANY_IMPORTS:  # then it is faster to count all words than to search each name
+        words = Counter(_WORD.findall(text))
+        return frozenset([item.start for item in items if _is_unused(text, item, lambda name: words[name] > 1)])
+    return frozenset([item.start for item in items if _is_unused(text, item, lambda name: _occurs_again(text, name))])
 
 
-def _is_unused(text: str, item: Import) -> bool:
+_MANY_IMPORTS = 200
+_WORD = re.compile(r"\w+")
+
+
+def _is_unused(text: str, item: Import, occurs_again: Callable[[str], bool]) -> bool:
     if item.optional or not item.module or item.module[0] == "." or _REGISTERS.match(item.module):
         return False
     names = list(_bound_names(text, item))
-    return bool(names) and not any(_occurs_again(text, name) for name in names) and "noqa" not in _line(text, item.start)
+    return bool(names) and not any(map(occurs_again, names)) and "noqa" not in _line(text, item.start)
 
 
 def _bound_names(text: str, item: Import) -> Iterator[str]:
