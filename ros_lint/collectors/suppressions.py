@@ -34,7 +34,12 @@ def _suppressions(text: Text) -> Iterator[Suppression]:
     content = text.text
     ranges = comments(text)
     lines = {start: (text.position(start)[0], text.position(end)[0]) for start, end in ranges}
-    standalone = {start for start, end in ranges if _is_standalone(content, start, end)}
+    ends = [0, *(lines[start][1] for start, _ in ranges)]  # a comment after another one in its line is not alone
+    standalone = {
+        start
+        for (start, end), before in zip(ranges, ends, strict=False)
+        if lines[start][0] != before and _is_standalone(content, text.offset(lines[start][0], 1), start, end)
+    }
     own_lines = {line for start in standalone for line in range(lines[start][0], lines[start][1] + 1)}
     following_line: dict[int, int] = {}  # a line with only a comment -> the next line without one
     for line in sorted(own_lines, reverse=True):
@@ -45,10 +50,19 @@ def _suppressions(text: Text) -> Iterator[Suppression]:
         leading = leading and _is_prolog(content[previous_end:start])
         previous_end = end
         first, last = lines[start]
-        yield from _in_comment(text, start, end, (first, following_line[last] if start in standalone else last), leading)
+        alone = start in standalone
+        yield from _in_comment(text, (start, end), (first, following_line[last] if alone else last), leading, alone)
 
 
-def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leading: bool) -> Iterator[Suppression]:
+def _in_comment(
+    text: Text, comment: tuple[int, int], lines: tuple[int, int], leading: bool, standalone: bool
+) -> Iterator[Suppression]:
+    """Yield the suppressions in a comment.
+
+    ``comment`` is its offset range, and ``lines`` are the first and last line to which they apply. ``leading`` is True if only
+    comments and XML declarations precede the comment in its file, ``standalone`` if nothing else is on its lines.
+    """
+    start, end = comment
     content = text.text
     marks = list(_MARK.finditer(content, start, end))
     for number, mark in enumerate(marks, 1):
@@ -58,9 +72,9 @@ def _in_comment(text: Text, start: int, end: int, lines: tuple[int, int], leadin
             continue  # a sentence that mentions ros-lint
         stop = _reason_end(content, mark.end(), marks[number].start() if number < len(marks) else end)
         if opens and len(marks) == 1 and _closes(content[stop:end]):
-            cut = _cut_comment(content, start, end)
+            cut = _cut_comment(content, start, end, standalone)
         else:
-            cut = _cut_mark(content, (mark.start(), stop), (start, end), opens)
+            cut = _cut_mark(content, (mark.start(), stop), comment, opens)
         names_range = mark.span("names") if mark["names"] is not None else (mark.end(), mark.end())
         yield Suppression(
             tuple(_names(text, *names_range)),
@@ -94,10 +108,9 @@ def _names(text: Text, start: int, end: int) -> Iterator[Name]:
         yield Name(word[0], text.span(start + word.start(), start + word.end()))
 
 
-def _is_standalone(content: str, start: int, end: int) -> bool:
-    line_start = content.rfind("\n", 0, start) + 1
-    line_start = max(line_start, content.rfind("\r", line_start, start) + 1)
-    return not content[line_start:start].strip() and _BLANK.match(content, end) is not None
+def _is_standalone(content: str, line: int, start: int, end: int) -> bool:
+    """Return whether only white space is before and after a comment in its lines. ``line`` is the offset of its first line."""
+    return not content[line:start].strip() and _BLANK.match(content, end) is not None
 
 
 def _is_prolog(between: str) -> bool:
@@ -130,12 +143,12 @@ def _closes(rest: str) -> bool:
     return not sign or _CLOSING.fullmatch(sign) is not None
 
 
-def _cut_comment(content: str, start: int, end: int) -> tuple[int, int]:
+def _cut_comment(content: str, start: int, end: int, standalone: bool) -> tuple[int, int]:
     """Return the offset range to delete in order to remove a comment with the white space before it.
 
-    If nothing else is on its lines, the range includes the line end.
+    If nothing else is on its lines (``standalone``), the range includes the line end.
     """
-    lines = _BLANK.match(content, end) if _is_standalone(content, start, end) else None
+    lines = _BLANK.match(content, end) if standalone else None
     while start and content[start - 1] in " \t":
         start -= 1
     return start, lines.end() if lines else end
