@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Final
 
 import pytest
 
@@ -281,6 +282,19 @@ def test_the_modules_of_a_package_are_those_that_it_installs(
     assert importable_modules(script(packages, installs), files) == modules
 
 
+USUAL_DATA: Final = (
+    "launch config configs cfg params param resource resources urdf meshes models worlds world maps map rviz scenarios "
+    "test tests doc docs examples images scripts include msg srv action build install log"
+)
+
+
+@pytest.mark.parametrize("folder", USUAL_DATA.split())
+def test_a_folder_with_a_usual_name_for_data_is_no_module(folder: str) -> None:
+    built = script(["robot", folder])
+    assert importable_modules(built, ["robot/a.py", f"{folder}/a.py"]) == ("robot",)
+    assert importable_modules(built, ["robot/a.py", f"{folder}/__init__.py"]) == ("robot", folder)
+
+
 @pytest.mark.parametrize(
     ("files", "found", "is_certain"),
     [
@@ -339,6 +353,7 @@ def test_a_module_of_the_workspace_may_also_be_that_of_a_released_package(
         ("ultralytics-pip", False, Suggestion("python3-ultralytics-pip", "spelling")),
         ("python-serial", False, Suggestion("python3-serial", "spelling")),
         ("serial-python", False, Suggestion("python3-serial", "spelling")),
+        ("numpy-pip", False, Suggestion("python3-numpy", "spelling")),
     ],
 )
 def test_a_correction_names_the_kind_of_the_mistake(wrong: str, python: bool, expected: Suggestion) -> None:
