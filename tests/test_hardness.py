@@ -96,6 +96,10 @@ INPUTS: Final = {
     "a file name of an old version": {"q/launch/a_old" + "1" * 26 + ".launch.py": ""},
     "setup.py: lists that are compared": {"r/setup.py": _setup(f"{_TWICE}z = x == y")},
     "setup.py: a key of tuples": {"r/setup.py": _setup("x = (1,)\n" + "x = (x, x)\n" * 30 + "y = {x: 1}")},
+    "setup.py: double stars": {
+        "r/setup.py": _setup("x = glob('**/a/' * 30 + '**', recursive=True)\ny = glob('**/' * 500 + '*', recursive=True)"),
+        "r/" + "a/" * 40 + "b.py": "",
+    },
     "setup.py: entry points": {
         "r/setup.py": _setup("").replace(
             "packages=['r']", "entry_points={'console_scripts': [" + ", ".join(f"'a{n} = r.n:main'" for n in range(5_000)) + "]}"

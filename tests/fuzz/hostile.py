@@ -404,6 +404,10 @@ _TREES: Final[Mapping[str, Files]] = {
         .encode()
         for n in range(60)
     },
+    "a chain of launch files": {
+        f"q/launch/a{n}.launch.xml": f'<launch><include file="$(dirname)/a{n + 1}.launch.xml"/></launch>'.encode()
+        for n in range(1_500)
+    },
     "packages in packages": {"n/" * n + "package.xml": _MANIFEST.replace(">q<", f">p{n}<").encode() for n in range(1, 100)},
     "long names": {
         "q/" + "a" * 255: b"",

@@ -68,7 +68,7 @@ def collect(source: Text) -> SetupCfg:
     continuations: list[Line] = []
     texts: list[WrittenText] = []
     section = ""
-    last = source.span(0, 0)
+    end = 0
     indent: int | None = None  # of the current option; lines that are indented more continue it
     for number in range(1, source.line_count + 1):
         line = source.line(number)
@@ -77,20 +77,20 @@ def collect(source: Text) -> SetupCfg:
             continue
         width = len(line) - len(line.lstrip())
         start = source.offset(number, 1) + width
-        whole = source.span(start, start + len(text))
-        last = whole.end()
+        end = start + len(text)
         if indent is not None and width > indent:
-            continuations.append(Line(text, whole))
+            continuations.append(Line(text, source.span(start, end)))
             continue
         _extend(options, continuations)
         indent = None
         header, given = _SECTION.match(text), _OPTION.match(text)
         if header:
             section = header[1]
-            texts.append(WrittenText("section", section, last))
+            texts.append(WrittenText("section", section, source.span(end, end)))
         elif given is None or not section or not given[1]:
-            message = "this line is in no section" if not section else "this line is neither a section nor an option"
-            wrong.append(Problem("setup-cfg-syntax", message, whole))
+            if len(wrong) < _MOST_WRONG_LINES:
+                message = "this line is in no section" if not section else "this line is neither a section nor an option"
+                wrong.append(Problem("setup-cfg-syntax", message, source.span(start, end)))
         else:
             indent = width
             at = start + given.start(2)
@@ -102,8 +102,8 @@ def collect(source: Text) -> SetupCfg:
                 problems.append(Problem("dashed-key", message, option.span, subject=given[1]))
     _extend(options, continuations)
     texts += [WrittenText("option", f"{option.section}.{option.key}", option.lines[0].span) for option in options if option.lines]
-    texts.append(WrittenText("section", "", last))
-    return SetupCfg(tuple(options), (*wrong[:_MOST_WRONG_LINES], *problems), tuple(texts))
+    texts.append(WrittenText("section", "", source.span(end, end)))
+    return SetupCfg(tuple(options), (*wrong, *problems), tuple(texts))
 
 
 def _extend(options: list[Option], continuations: list[Line]) -> None:

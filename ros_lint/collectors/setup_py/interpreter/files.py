@@ -73,8 +73,10 @@ class Files:
             yield from self.walk(posixpath.join(top, name))
 
     def glob(self, pattern: str, *, recursive: bool = False, hidden: bool = False) -> list[str]:
-        """Return the sorted result of ``glob.glob(pattern)``. ``hidden`` includes names that begin with a dot."""
-        return sorted(filter(None, self._glob(pattern, recursive, hidden, False)))
+        """Return the sorted result of ``glob.glob(pattern)``, each path once. ``hidden`` includes names that begin with a dot."""
+        if recursive:
+            pattern = _REPEATED.sub(r"\1", pattern)
+        return sorted(set(filter(None, self._glob(pattern, recursive, hidden, False))))
 
     def _glob(self, pattern: str, recursive: bool, hidden: bool, folders: bool) -> Iterator[str]:
         folder, name = posixpath.split(pattern)
@@ -82,7 +84,7 @@ class Files:
             if self.exists(pattern) if name else self.is_folder(folder):
                 yield pattern
             return
-        for top in self._glob(folder, recursive, hidden, True) if _MAGIC.search(folder) else [folder]:
+        for top in dict.fromkeys(self._glob(folder, recursive, hidden, True)) if _MAGIC.search(folder) else [folder]:
             if recursive and name == "**":
                 found: Iterable[str] = ["", *self._below(top, "", hidden)] if self.is_folder(top) else []
             elif _MAGIC.search(name):
@@ -134,3 +136,5 @@ def _any_of(patterns: Sequence[str]) -> re.Pattern[str]:
 
 
 _MAGIC = re.compile(r"[*?\[]")
+_REPEATED = re.compile(r"(\A|/)(?:\*\*/+)+(?=\*\*(?:/|\Z))")
+"""Components ``**`` before another one. They match nothing else, but each of them multiplies the results."""
