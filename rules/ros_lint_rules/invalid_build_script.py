@@ -26,6 +26,7 @@ Not reported:
 
 - Templates and Python 2.
 - Python that is newer than that of the distribution, if no distribution was chosen.
+- More than ten lines of a `setup.cfg` that are neither a section nor an option.
 - Undefined names and wrong calls in code that catches the error, or that may not run.
 - Missing interface files, if a folder of the package is not available, such as a submodule that is not cloned.
 """

@@ -27,6 +27,7 @@ Not reported:
 
 - Files from which no interfaces are generated, or not in every build.
 - Interfaces in IDL.
+- More than 100 errors of a file. rosidl itself stops at the first one.
 - Files with line endings other than those of Unix and Windows.
 
 Unknown messages of a package are reported by `ungenerated-interface`.
