@@ -249,7 +249,7 @@ DAMAGED: dict[str, Callable[[bytes], bytes]] = {
     "another type": lambda data: Codec(tuple[str, ...]).encode(("src", "x")),
 }
 PLANTED_REPORTS: dict[str, Callable[[bytes], bytes]] = {
-    "a path with NUL": lambda data: _report(_REPORTS, data, errors=(("a\0b", "stamp", 2),)),
+    "a path with NUL": lambda data: _report(_REPORTS, data, errors=(("a\0b", "stamp", errno.EACCES),)),
     "stamps without files": lambda data: _report(_REPORTS, data, files=()),
     "files without stamps": lambda data: _report(_REPORTS, data, stamps=b""),
     "half of a stamp": lambda data: _report(_REPORTS, data, stamps=b"12345678", files=("src",)),

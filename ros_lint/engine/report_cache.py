@@ -56,7 +56,7 @@ class ReportCache:
         try:
             if not all(tree.is_unchanged(answers) for tree, answers in pairs):
                 return None
-        except ValueError:  # a path of a crafted file contains NUL
+        except ValueError:  # lists of a crafted file have different lengths
             return None
         renewed = [tree.renewed(answers) for tree, answers in pairs]
         if any(renewed):

@@ -146,5 +146,5 @@ def _state() -> str:
 def _stamp(tree: Tree, path: str) -> Stamp | None:
     try:
         return tree.stamp(path)
-    except (OSError, ValueError):  # a path from the cache contains NUL
+    except OSError:
         return None
