@@ -54,6 +54,7 @@ from ros_lint.analysis.dependencies.undeclared import (
 from ros_lint.analysis.dependencies.unknown_closure import may_provide
 from ros_lint.analysis.dependencies.unresolved import (
     UnresolvedDependency,
+    are_corrected,
     declared_names,
     intended_names,
     is_used_in_sources,
@@ -78,6 +79,7 @@ __all__ = [
     "Remedy",
     "UnresolvedDependency",
     "add_dependency",
+    "are_corrected",
     "availability_remark",
     "change_dependency",
     "condition_for",

@@ -37,6 +37,7 @@ Not reported:
 Reported with medium confidence, so shown with `--pedantic` only:
 
 - Names that may be those of packages that are not released anywhere.
+- Misspelt names, if the package has more than 500 unknown names. Then the intended names are not searched.
 - Names of libraries, if a `.repos` file or `.gitmodules` lists sources that are not in the workspace.
 
 The confidence is high for:
@@ -70,6 +71,7 @@ _CALLED_SO_BY = {"cmake": "find_package", "header": "#include", "python": "Pytho
 _PYTHON_BUILD = "ament_python"
 _PYTHON_IN_CMAKE = "ament_cmake_python"
 _MOST_KEYS = 3
+_REMEDY = "correct it, or add the package to the workspace"
 _FINDS_DECLARED = "ament_auto_find_build_dependencies"
 
 
@@ -89,6 +91,8 @@ def check(workspace: Workspace) -> Iterator[Finding]:
                 elif unresolved.runs_python and workspace.world.by_import(name).none_needed:
                     why = f"'{name}' is a module of the Python standard library, so rosdep has nothing to install"
                     yield _needless(unresolved, why)
+                elif not dependencies.are_corrected(unresolved.package, workspace):
+                    yield _uncorrected(unresolved, workspace)
                 elif workspace.world.meant(name, python=unresolved.runs_python) is None and (own := _own(unresolved)):
                     yield _needless(unresolved, f"'{name}' is a {own} of this package, not a package")
                 else:
@@ -136,6 +140,21 @@ def _own(unresolved: dependencies.UnresolvedDependency) -> str:
     return "module" if any(f"{folder}/{name}.py" in package.files for folder in folders) else ""
 
 
+def _uncorrected(unresolved: dependencies.UnresolvedDependency, workspace: Workspace) -> Finding:
+    return Finding(
+        f"{_what(unresolved.name, workspace)}; {_REMEDY}",
+        unresolved.declared.depend.name_span,
+        unresolved.name,
+        confidence=_confidence(unresolved, "", workspace),
+        package=unresolved.package.name,
+    )
+
+
+def _what(name: str, workspace: Workspace) -> str:
+    known = f"{workspace.target.distro}, as of {workspace.world.knowledge.date}"
+    return f"'{name}' is neither a package nor a rosdep key ({known})"
+
+
 def _unknown(
     unresolved: dependencies.UnresolvedDependency,
     workspace: Workspace,
@@ -145,9 +164,8 @@ def _unknown(
 
     ``renamed``: the dependencies for which fixes already write another name, by package and new name.
     """
-    name, world, target = unresolved.name, workspace.world, workspace.target
-    known = f"{target.distro}, as of {world.knowledge.date}"
-    what = f"'{name}' is neither a package nor a rosdep key ({known})"
+    name, world = unresolved.name, workspace.world
+    what = _what(name, workspace)
     meant = world.meant(name, python=unresolved.runs_python)
     other_library = ""
     if meant and meant.by == "slip" and not world.is_package(meant.name) and dependencies.is_used_in_sources(unresolved):
@@ -164,7 +182,7 @@ def _unknown(
         message = f"{what}, only the name that {_caller('system', installing[0])} uses; write {keys}"
     elif meant is None:
         near = [other for other in world.suggest(name, python=unresolved.runs_python) if other != other_library]
-        hint = names.did_you_mean(near, "") or "correct it, or add the package to the workspace"
+        hint = names.did_you_mean(near, "") or _REMEDY
         if lacking := dependencies.undeclared_match(unresolved, workspace):
             hint = f"write '{lacking}', which is used but not declared{dependencies.availability_remark(workspace, lacking)}"
             sure, intended = Confidence.HIGH, lacking

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ros_lint.analysis.dependencies.unresolved import resembles_ament_package
+from ros_lint.analysis.dependencies.unresolved import MOST_CORRECTED, resembles_ament_package
 from ros_lint.analysis.memo import cached_by_workspace
 from ros_lint.knowledge.spelling import VENDOR, may_be_package
 from ros_lint.workspace.model import Workspace
@@ -21,9 +21,13 @@ def may_provide(unknown: Sequence[str], name: str, workspace: Workspace, *, impr
     - Only unknown packages that are named like build tools or linters provide build tools and linters.
     - Any unknown package may provide a library.
     - If few released packages depend on ``name``, an unknown package with a quite different name does not depend on it.
+
+    More than :data:`MOST_CORRECTED` unknown names are not examined: one of them may provide the package.
     """
     if name in workspace.by_name:
         return False
+    if len(unknown) > MOST_CORRECTED:
+        return True
     tool = "cmake" in name or (name.startswith("ament_") and not name.startswith("ament_index"))
     released = workspace.world.released(name)
     messages = bool(released and released.interfaces)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from ros_lint.analysis.finding import Consequence
 from ros_lint.analysis.memo import cached_by_package, cached_by_workspace
@@ -87,12 +87,26 @@ def resembles_ament_package(name: str, workspace: Workspace) -> bool:
     return name.startswith("ament_") and any(near.startswith("ament_") for near in workspace.world.suggest(name))
 
 
+MOST_CORRECTED: Final = 500
+"""Greatest number of unresolved dependencies of a package for which the intended names are searched."""
+
+
+def are_corrected(package: Package, workspace: Workspace) -> bool:
+    """Return whether the intended names of the unresolved dependencies of a package are searched.
+
+    They are not if there are more than :data:`MOST_CORRECTED`: then the names are not misspelled, and the search takes long.
+    """
+    return len(_unknown(package, workspace)) <= MOST_CORRECTED
+
+
 @cached_by_package
 def intended_names(package: Package, workspace: Workspace) -> frozenset[str]:
     """Return the packages that the unresolved names in package.xml probably mean: ``rclcpp`` for ``rclcp``.
 
     These packages are not reported as undeclared, because the unresolved name is reported.
     """
+    if not are_corrected(package, workspace):
+        return frozenset()
     result = (
         workspace.world.meant(unresolved_dependency.name, python=unresolved_dependency.runs_python)
         for unresolved_dependency in _unknown(package, workspace)
@@ -104,7 +118,7 @@ def intended_names(package: Package, workspace: Workspace) -> frozenset[str]:
 def misspelled_names(package: Package, workspace: Workspace) -> Mapping[str, str]:
     """Return the declared names that are probably misspelled, each with the intended package."""
     result: dict[str, str] = {}
-    for dependency in _unknown(package, workspace):
+    for dependency in _unknown(package, workspace) if are_corrected(package, workspace) else ():
         if not workspace.world.meant(dependency.name, python=dependency.runs_python):
             result[dependency.name] = undeclared_match(dependency, workspace)
     return {name: what for name, what in result.items() if what}
