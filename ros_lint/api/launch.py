@@ -22,7 +22,13 @@ from ros_lint.analysis.launch.files import (
     run_launch_files,
     used_files,
 )
-from ros_lint.analysis.launch.includes import IncludeResolver, assigned_configurations, include_resolver, substitute
+from ros_lint.analysis.launch.includes import (
+    MOST_RELATED,
+    IncludeResolver,
+    assigned_configurations,
+    include_resolver,
+    substitute,
+)
 from ros_lint.analysis.launch.parameter_checks import Undeclared, WrongType, undeclared, unmatched_nodes, wrong_types
 from ros_lint.analysis.launch.parameter_files import NodeParameterFile, given_parameter_files, parameter_files_passed_on
 from ros_lint.analysis.launch.remappings import UnusedRemapping, unused_remappings
@@ -42,6 +48,7 @@ __all__ = [
     "ACCEPTED_PROBLEMS",
     "LAUNCH_FILE_NAMES",
     "LAUNCH_RUNTIME",
+    "MOST_RELATED",
     "ArgumentUse",
     "FailingExpression",
     "IncludeResolver",

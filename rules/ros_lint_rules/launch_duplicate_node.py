@@ -64,10 +64,6 @@ def _of(file: LaunchFile, workspace: Workspace) -> Iterator[Finding]:
         )
 
 
-_MOST_FILES = 500
-"""Maximum number of launch files below a launch file in which nodes with equal names are searched."""
-
-
 class _Part(NamedTuple):
     """A part of a launch file that starts nodes: a node with its possible names, or an include."""
 
@@ -122,10 +118,10 @@ def _parts(workspace: Workspace, path: str) -> tuple[_Part, ...]:
 
 @cached_by_name
 def _names_below(workspace: Workspace, path: str) -> frozenset[str]:
-    """Return the possible names of all nodes in the launch file at ``path`` and the files it includes, at most _MOST_FILES."""
+    """Return the possible names of all nodes in the launch file at ``path`` and the files it includes, at most MOST_RELATED."""
     seen, waiting = {path}, [path]
     names: set[str] = set()
-    while waiting and len(seen) <= _MOST_FILES:
+    while waiting and len(seen) <= launch.MOST_RELATED:
         for part in _parts(workspace, waiting.pop()):
             names |= part.names
             if part.included and part.included not in seen:

@@ -52,7 +52,7 @@ Reported with medium confidence:
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 
 from ros_lint.api import (
@@ -356,39 +356,29 @@ def _files_without(owner: str, path: str, kind: str, workspace: Workspace) -> tu
         if package.hidden(Facet.SHARE, f"share/{owner}/{path}"):
             return None
         # Another rule reports a file of the sources that is not installed, also if the folders differ.
-        named = _not_installed(package, workspace).get(path.rpartition("/")[2], ())
-        if any(file == path or file.endswith(f"/{path}") for file in named):
+        installed = package.script.products.installed
+        named = files.files_by_name(package, workspace).get(path.rpartition("/")[2], ())
+        if any((file == path or file.endswith(f"/{path}")) and file not in installed for file in named):
             return None
         if any(path.startswith(f"{folder}/") for folder in (*package.unvisited_folders, *package.nested)):
             return None
-    installed = _installed(workspace, owner)
-    same, below = (bisect_left(installed, start) for start in (path, f"{path}/"))
-    exists = path in installed[same : same + 1] or any(file.startswith(f"{path}/") for file in installed[below : below + 1])
-    return None if exists else installed
+    shared = _shared(workspace, owner)
+    same, below = (bisect_left(shared, start) for start in (path, f"{path}/"))
+    exists = path in shared[same : same + 1] or any(file.startswith(f"{path}/") for file in shared[below : below + 1])
+    return None if exists else shared
 
 
 @cached_by_name
-def _installed(workspace: Workspace, owner: str) -> tuple[str, ...]:
+def _shared(workspace: Workspace, owner: str) -> tuple[str, ...]:
     """Return the files in the share directory of the packages with the name ``owner``, sorted."""
     share = f"share/{owner}/"
-    shared = {
+    found = {
         installed.path[len(share) :]
         for package in workspace.by_name.get(owner, ())
         for installed in package.built.products.installs
         if installed.path.startswith(share)
     }
-    return tuple(sorted(shared))
-
-
-@cached_by_package
-def _not_installed(package: Package, _workspace: Workspace) -> Mapping[str, Sequence[str]]:
-    """Return the files of a package that it does not install, by the last component of their paths."""
-    installed = package.built.products.installed
-    result: dict[str, list[str]] = {}
-    for file in package.files:
-        if file not in installed:
-            result.setdefault(file.rpartition("/")[2], []).append(file)
-    return result
+    return tuple(sorted(found))
 
 
 def _owner(package: Package, path: str, workspace: Workspace) -> str:

@@ -46,9 +46,21 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
 
-from ros_lint.api import Call, Confidence, Finding, Package, Problem, Rule, Severity, Workspace, build, cached_by_package, names
+from ros_lint.api import (
+    Call,
+    Confidence,
+    Finding,
+    Package,
+    Problem,
+    Rule,
+    Severity,
+    Workspace,
+    build,
+    cached_by_package,
+    files,
+    names,
+)
 
 _KINDS = ("missing-file", "missing-folder", "missing-script", "file-is-directory")
 _KINDS_OF_INSTALL = ("DIRECTORY", "FILES", "PROGRAMS", "TARGETS")
@@ -155,30 +167,21 @@ def _hint(package: Package, path: str, workspace: Workspace) -> str:
     if path in _KINDS_OF_INSTALL:
         return f"; CMake reads a repeated {path} as a path, so write it only once"
     folder, _, name = path.rpartition("/")
-    by_name, by_folder = _files(package, workspace)
-    same = by_name.get(name, ())
+    same = files.files_by_name(package, workspace).get(name, ())
     if len(same) == 1:
         return names.ask_if_meant(same)
-    siblings = names.of_same_kind(path, by_folder.get(folder, ()))
+    siblings = names.of_same_kind(path, _names_by_folder(package, workspace).get(folder, ()))
     return names.ask_if_meant([f"{folder}/{near}".lstrip("/") for near in names.similar_names(name, siblings, 1, 0.8)])
 
 
-class _Files(NamedTuple):
-    by_name: Mapping[str, tuple[str, ...]]
-    """The paths of the files of a package, by the last component."""
-    by_folder: Mapping[str, tuple[str, ...]]
-    """The last components of the paths, by folder."""
-
-
 @cached_by_package
-def _files(package: Package, _workspace: Workspace) -> _Files:
-    by_name: dict[str, list[str]] = {}
-    by_folder: dict[str, list[str]] = {}
+def _names_by_folder(package: Package, _workspace: Workspace) -> Mapping[str, tuple[str, ...]]:
+    """Return the names of the files in each folder of a package."""
+    result: dict[str, list[str]] = {}
     for file in package.files:
         folder, _, name = file.rpartition("/")
-        by_name.setdefault(name, []).append(file)
-        by_folder.setdefault(folder, []).append(name)
-    return _Files(*({key: tuple(values) for key, values in index.items()} for index in (by_name, by_folder)))
+        result.setdefault(folder, []).append(name)
+    return {folder: tuple(found) for folder, found in result.items()}
 
 
 def _python_packages(package: Package) -> Iterator[Finding]:

@@ -50,6 +50,7 @@ from ros_lint.api import (
     Workspace,
     build,
     cached_by_package,
+    files,
     first_related,
     names,
 )
@@ -146,20 +147,11 @@ def _wrong(used: _Used, maker: Package, workspace: Workspace) -> str | None:
     if _is_among(used, available):
         return None
     by_hand = f"{used.maker}/{used.kind}/{used.name}{used.header}" if used.header else f"{used.kind}/__init__.py"
-    named = _files_by_name(maker, workspace).get(by_hand.rpartition("/")[2], ())
+    named = files.files_by_name(maker, workspace).get(by_hand.rpartition("/")[2], ())
     if any(f"/{file}".endswith(f"/{by_hand}") for file in named):
         return None
     elsewhere = _first_by_form(maker, workspace)[bool(used.header)].get(used.name, "")
     return _message(used, elsewhere, available, "generate", "; correct the name or add the file")
-
-
-@cached_by_package
-def _files_by_name(maker: Package, _: Workspace) -> Mapping[str, Sequence[str]]:
-    """Return the files of a package by the last component of their paths."""
-    result: dict[str, list[str]] = {}
-    for file in maker.files:
-        result.setdefault(file.rpartition("/")[2], []).append(file)
-    return result
 
 
 @cached_by_package

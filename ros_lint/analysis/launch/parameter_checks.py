@@ -120,7 +120,7 @@ class _Receiver(NamedTuple):
     words: frozenset[str]
     """The words in the code of its package, and the parameters that files of generate_parameter_library describe."""
     patterns: tuple[str, ...]
-    """Those of ``words`` in which a part may be any name."""
+    """The members of ``words`` that contain ANY_PART, such as ``pid.*.p``."""
     free: list[str]
     """The parameters that the node declares and the file does not set."""
 

@@ -266,13 +266,18 @@ def may_be_comment(text: str, at: int, code: Sequence[int] = ()) -> bool:
 
     ``code`` has sorted offsets that are certainly outside of comments and strings.
     """
-    before = bisect_left(code, at)
-    clear = code[before - 1] if before else 0
+    clear = last_before(code, at)
     return (
         text.find("//", text.rfind("\n", 0, at) + 1, at) >= 0
         or _RAW.search(text, clear, at) is not None
         or (_COMMENT.search(text, clear, at) is not None and text.rfind("/*", clear, at) > text.rfind("*/", clear, at))
     )
+
+
+def last_before(offsets: Sequence[int], at: int) -> int:
+    """Return the last of the sorted offsets before ``at``, 0 if there is none."""
+    position = bisect_left(offsets, at)
+    return offsets[position - 1] if position else 0
 
 
 def _blank(match: re.Match[str]) -> str:

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import re
 import string
-from bisect import bisect_left
 from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
-from ros_lint.collectors.cpp.includes import IncludeScan, branches, may_be_comment
+from ros_lint.collectors.cpp.includes import IncludeScan, branches, last_before, may_be_comment
 from ros_lint.facts.sources import Mention
 
 if TYPE_CHECKING:
@@ -71,19 +70,14 @@ def _first(text: str, package: str, code: Sequence[int], conditional: Sequence[r
     start = text.find(qualifier)
     while start >= 0:
         name = pattern.match(text, start + len(package))
-        if name and _is_code(text, start) and not may_be_comment(text, start, (clear := max(clear, _before(code, start)),)):
+        clear = max(clear, last_before(code, start))
+        if name and _is_code(text, start) and not may_be_comment(text, start, (clear,)):
             clear = start
             if not conditional or not any(start in index for index in conditional):
                 return start, name.end(), False, package
             optional = optional or (start, name.end(), True, package)
         start = text.find(qualifier, start + 1)
     return optional
-
-
-def _before(code: Sequence[int], at: int) -> int:
-    """Return the last of the sorted offsets before ``at``, 0 if there is none."""
-    position = bisect_left(code, at)
-    return code[position - 1] if position else 0
 
 
 def _is_code(text: str, at: int) -> bool:
